@@ -1,0 +1,24 @@
+#pragma once
+
+#include <string_view>
+
+#include "zskel/mesh/mesh.h"
+
+namespace zskel {
+
+// One reader a format: the file's bytes in, the mesh out; `name` stands in messages.
+// All throw InputError; none sets the hash.
+
+/// Wavefront OBJ: polygons of `v`; what belongs to texture, normals and curves is skipped.
+Mesh read_obj(std::string_view bytes, std::string_view name);
+
+/// Geomview OFF in text form: [ST][C][N]OFF with colours, normals and comments skipped.
+Mesh read_off(std::string_view bytes, std::string_view name);
+
+/// Stanford PLY 1.0 in all three encodings; elements and properties that are not used are skipped.
+Mesh read_ply(std::string_view bytes, std::string_view name);
+
+/// STL, ascii or binary; corners at equal positions become one vertex, numbered as first seen.
+Mesh read_stl(std::string_view bytes, std::string_view name);
+
+}  // namespace zskel

@@ -1,0 +1,50 @@
+#include "zskel/mesh/mesh_builder.h"
+
+#include <fmt/format.h>
+
+#include "zskel/core/error.h"
+#include "zskel/mesh/triangulate.h"
+
+namespace zskel {
+
+void MeshBuilder::reserve_faces(std::size_t faces) {
+    sizes_.reserve(faces);
+    corners_.reserve(faces * 3);
+}
+
+void MeshBuilder::warn(std::size_t count, std::string_view what) {
+    if (count > 0) warnings.push_back(fmt::format("{} {}", count, what));
+}
+
+Mesh MeshBuilder::finish() {
+    if (sizes_.empty()) {
+        throw InputError(
+            fmt::format("{}: the model has no faces ({} vertices); expected at least one", name_,
+                        positions.size()));
+    }
+    const std::size_t triangle_count = corners_.size() - 2 * sizes_.size();
+    if (triangle_count >= kNone || positions.size() >= kNone) {
+        throw InputError(
+            fmt::format("{}: {} triangles on {} vertices; at most {} of each can be numbered",
+                        name_, triangle_count, positions.size(), kNone - 1));
+    }
+    Mesh mesh;
+    mesh.triangles.reserve(triangle_count);
+    mesh.face_of_triangle.reserve(triangle_count);
+    std::size_t begin = 0;
+    std::size_t fans = 0;
+    for (std::size_t face = 0; face < sizes_.size(); ++face) {
+        const std::span corners(corners_.data() + begin, sizes_[face]);
+        fans += triangulate(positions, corners, mesh.triangles) ? 0 : 1;
+        mesh.face_of_triangle.resize(mesh.triangles.size(), static_cast<std::uint32_t>(face));
+        begin += sizes_[face];
+    }
+    warn(fans, "faces cross themselves or have no area; cut into fans");
+    mesh.name = name_;
+    mesh.face_count = sizes_.size();
+    mesh.positions = std::move(positions);
+    mesh.warnings = std::move(warnings);
+    return mesh;
+}
+
+}  // namespace zskel

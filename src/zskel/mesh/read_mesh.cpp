@@ -1,0 +1,140 @@
+#include "zskel/mesh/read_mesh.h"
+
+#include <fmt/format.h>
+
+#define XXH_INLINE_ALL
+#include <xxhash.h>
+
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <cerrno>
+#include <cstdio>
+#include <cstring>
+#include <filesystem>
+#include <memory>
+#include <optional>
+
+#include "zskel/core/error.h"
+#include "zskel/mesh/formats.h"
+#include "zskel/mesh/text_cursor.h"
+
+namespace zskel {
+namespace {
+
+constexpr std::string_view kForms = "OBJ, OFF, PLY or STL";
+constexpr std::size_t kFirstRead = std::size_t{1} << 16;
+
+struct CloseFile {
+    void operator()(std::FILE* file) const {
+        if (file != stdin) std::fclose(file);
+    }
+};
+
+[[noreturn]] void fail_reading(const std::string& path, int error) {
+    throw InputError(fmt::format("{}: cannot be read: {}; expected a {} file", path,
+                                 std::strerror(error), kForms));
+}
+
+/// How much to ask for at first: the whole of a regular file and one byte, to see its end.
+std::size_t first_read_size(const std::string& path) {
+    std::error_code unknown;
+    const std::uintmax_t size = std::filesystem::file_size(path, unknown);
+    return unknown ? kFirstRead : static_cast<std::size_t>(size) + 1;
+}
+
+std::vector<std::byte> read_all(const std::string& path) {
+    const bool standard_input = path == "-";
+    const std::unique_ptr<std::FILE, CloseFile> file(
+        standard_input ? stdin : std::fopen(path.c_str(), "rb"));
+    if (!file) fail_reading(path, errno);
+    std::vector<std::byte> bytes(standard_input ? kFirstRead : first_read_size(path));
+    std::size_t filled = 0;
+    while (true) {
+        filled += std::fread(bytes.data() + filled, 1, bytes.size() - filled, file.get());
+        if (filled < bytes.size()) break;
+        bytes.resize(bytes.size() * 2);
+    }
+    if (std::ferror(file.get()) != 0) fail_reading(path, errno);
+    bytes.resize(filled);
+    return bytes;
+}
+
+std::string lower_case(std::string text) {
+    std::transform(text.begin(), text.end(), text.begin(),
+                   [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+    return text;
+}
+
+std::optional<MeshFormat> format_of_extension(const std::string& path) {
+    const std::string extension = lower_case(std::filesystem::path(path).extension().string());
+    if (extension == ".obj") return MeshFormat::Obj;
+    if (extension == ".ply") return MeshFormat::Ply;
+    if (extension == ".stl") return MeshFormat::Stl;
+    constexpr std::array<std::string_view, 5> kOff = {".off", ".coff", ".noff", ".cnoff", ".stoff"};
+    if (std::find(kOff.begin(), kOff.end(), extension) != kOff.end()) return MeshFormat::Off;
+    return std::nullopt;
+}
+
+/// Binary STL has no mark of its own, but its length follows from the count behind its header.
+bool is_binary_stl(std::string_view bytes) {
+    constexpr std::size_t kHead = 84;
+    constexpr std::size_t kFacet = 50;
+    if (bytes.size() < kHead) return false;
+    std::size_t count = 0;
+    for (std::size_t i = 0; i < 4; ++i) {
+        count |= static_cast<std::size_t>(static_cast<unsigned char>(bytes[80 + i])) << (8 * i);
+    }
+    return bytes.size() == kHead + count * kFacet;
+}
+
+MeshFormat format_of_content(std::string_view bytes, const std::string& name) {
+    TextCursor text(bytes, name, {.hash_comments = true, .joined_lines = false});
+    const std::string_view word = text.to_content() ? text.word() : std::string_view{};
+    if (word == "ply") return MeshFormat::Ply;
+    if (is_binary_stl(bytes) || word == "solid") return MeshFormat::Stl;
+    if (word.size() >= 3 && word.size() <= 7 && word.substr(word.size() - 3) == "OFF") {
+        return MeshFormat::Off;
+    }
+    constexpr std::array<std::string_view, 8> kObj = {"v", "vt", "vn",     "o",
+                                                      "g", "s",  "mtllib", "usemtl"};
+    if (std::find(kObj.begin(), kObj.end(), word) != kObj.end()) return MeshFormat::Obj;
+    throw InputError(
+        fmt::format("{}: neither the name nor the content, which begins with {}, is that "
+                    "of {}",
+                    name, quoted(word), kForms));
+}
+
+}  // namespace
+
+Mesh read_mesh(const std::string& path) {
+    const std::vector<std::byte> bytes = read_all(path);
+    std::optional<MeshFormat> format = format_of_extension(path);
+    if (!format) {
+        const std::string_view text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
+        format = format_of_content(text, path);
+    }
+    return parse_mesh(bytes, *format, path);
+}
+
+Mesh parse_mesh(std::span<const std::byte> bytes, MeshFormat format, const std::string& name) {
+    if (bytes.empty())
+        throw InputError(fmt::format("{}: the file is empty; expected a model", name));
+    const std::string_view text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
+    Mesh mesh;
+    switch (format) {
+        case MeshFormat::Obj:
+            mesh = read_obj(text, name);
+            break;
+        case MeshFormat::Off:
+            mesh = read_off(text, name);
+            break;
+        case MeshFormat::Ply:
+        case MeshFormat::Stl:
+            throw InputError(fmt::format("{}: PLY and STL are not read yet", name));
+    }
+    mesh.hash = XXH3_64bits(bytes.data(), bytes.size());
+    return mesh;
+}
+
+}  // namespace zskel

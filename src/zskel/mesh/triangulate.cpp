@@ -1,0 +1,197 @@
+// Ear clipping (G. H. Meisters, "Polygons have ears", 1975) in the plane of Newell's normal.
+// Differs: corners on a straight line are cut last, so that they end in triangles with area where
+// that is possible, and a corner at the place of an ear's own corner does not block it, so that
+// outlines with a bridge to a hole are cut too.
+#include "zskel/mesh/triangulate.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "zskel/core/assert.h"
+
+namespace zskel {
+namespace {
+
+/// Sine of the angle up to which two edges count as one straight line: rounding, with room.
+constexpr double kStraightSine = 1e-12;
+
+DVec3 newell_normal(std::span<const DVec3> positions, std::span<const std::uint32_t> polygon) {
+    const DVec3 origin = positions[polygon[0]];
+    DVec3 normal(0.0);
+    for (std::size_t i = 0; i < polygon.size(); ++i) {
+        const DVec3 a = positions[polygon[i]] - origin;
+        const DVec3 b = positions[polygon[(i + 1) % polygon.size()]] - origin;
+        normal += glm::cross(a, b);
+    }
+    return normal;
+}
+
+/// Twice the area of a b c, positive when counter-clockwise.
+double area2(const glm::dvec2& a, const glm::dvec2& b, const glm::dvec2& c) {
+    const glm::dvec2 u = b - a;
+    const glm::dvec2 v = c - a;
+    return u.x * v.y - u.y * v.x;
+}
+
+enum class Turn { Left, Straight, Right };
+
+Turn turn_at(const glm::dvec2& before, const glm::dvec2& here, const glm::dvec2& after) {
+    const double area = area2(before, here, after);
+    const double straight = kStraightSine * glm::length(here - before) * glm::length(after - here);
+    if (std::abs(area) <= straight) return Turn::Straight;
+    return area > 0.0 ? Turn::Left : Turn::Right;
+}
+
+/// The polygon seen against its normal: drops the largest axis, which rounds nothing.
+std::vector<glm::dvec2> flatten(std::span<const DVec3> positions,
+                                std::span<const std::uint32_t> polygon, const DVec3& normal) {
+    const DVec3 size = glm::abs(normal);
+    const int dropped = size.x >= size.y && size.x >= size.z ? 0 : (size.y >= size.z ? 1 : 2);
+    const int first = (dropped + 1) % 3;
+    const int second = (dropped + 2) % 3;
+    const double sign = normal[dropped] < 0.0 ? -1.0 : 1.0;
+    std::vector<glm::dvec2> flat;
+    flat.reserve(polygon.size());
+    const DVec3 origin = positions[polygon[0]];
+    for (const std::uint32_t vertex : polygon) {
+        const DVec3 p = positions[vertex] - origin;
+        flat.emplace_back(p[first] * sign, p[second]);
+    }
+    return flat;
+}
+
+/// What is left of an outline while ears are cut from it: a ring of corners.
+class Outline {
+  public:
+    Outline(std::vector<glm::dvec2> flat, std::span<const std::uint32_t> polygon)
+        : flat_(std::move(flat)), polygon_(polygon), next_(polygon.size()), prev_(polygon.size()) {
+        const auto n = static_cast<std::uint32_t>(polygon.size());
+        for (std::uint32_t i = 0; i < n; ++i) {
+            next_[i] = (i + 1) % n;
+            prev_[i] = (i + n - 1) % n;
+        }
+    }
+
+    std::uint32_t next(std::uint32_t corner) const { return next_[corner]; }
+
+    Turn turn(std::uint32_t corner) const {
+        return turn_at(flat_[prev_[corner]], flat_[corner], flat_[next_[corner]]);
+    }
+
+    bool is_ear(std::uint32_t corner) const {
+        if (turn(corner) != Turn::Left) return false;
+        const std::uint32_t last = prev_[corner];
+        for (std::uint32_t i = next_[next_[corner]]; i != last; i = next_[i]) {
+            if (blocks(corner, i)) return false;
+        }
+        return true;
+    }
+
+    Triangle cut(std::uint32_t corner) {
+        const std::uint32_t before = prev_[corner];
+        const std::uint32_t after = next_[corner];
+        next_[before] = after;
+        prev_[after] = before;
+        return {polygon_[before], polygon_[corner], polygon_[after]};
+    }
+
+  private:
+    /// True when corner i lies in or on the triangle at `ear`, but on none of its corners.
+    bool blocks(std::uint32_t ear, std::uint32_t i) const {
+        const glm::dvec2& a = flat_[prev_[ear]];
+        const glm::dvec2& b = flat_[ear];
+        const glm::dvec2& c = flat_[next_[ear]];
+        const glm::dvec2& p = flat_[i];
+        if (turn_at(a, b, p) == Turn::Right || turn_at(b, c, p) == Turn::Right ||
+            turn_at(c, a, p) == Turn::Right) {
+            return false;
+        }
+        return p != a && p != b && p != c && turn(i) != Turn::Left;
+    }
+
+    std::vector<glm::dvec2> flat_;
+    std::span<const std::uint32_t> polygon_;
+    std::vector<std::uint32_t> next_;
+    std::vector<std::uint32_t> prev_;
+};
+
+/// The first corner from `start` on that can be cut; kNone when there is none.
+std::uint32_t find_cut(const Outline& outline, std::uint32_t start, std::size_t left) {
+    std::uint32_t corner = start;
+    for (std::size_t i = 0; i < left; ++i, corner = outline.next(corner)) {
+        if (outline.is_ear(corner)) return corner;
+    }
+    for (std::size_t i = 0; i < left; ++i, corner = outline.next(corner)) {
+        if (outline.turn(corner) == Turn::Straight) return corner;
+    }
+    return kNone;
+}
+
+bool clip_ears(Outline outline, std::size_t corners, std::vector<Triangle>& triangles) {
+    std::uint32_t at = 0;
+    bool proper = true;
+    for (std::size_t left = corners; left > 3; --left) {
+        std::uint32_t corner = proper ? find_cut(outline, at, left) : outline.next(at);
+        if (corner == kNone) {
+            proper = false;
+            corner = outline.next(at);
+        }
+        // A fan keeps its hub; ears go on behind the cut, which spreads them over the outline.
+        const std::uint32_t after = outline.next(corner);
+        triangles.push_back(outline.cut(corner));
+        if (proper) at = after;
+    }
+    triangles.push_back(outline.cut(outline.next(at)));
+    return proper;
+}
+
+/// The better of a quad's two cuts: the one whose smaller triangle is larger.
+bool split_quad(std::span<const DVec3> positions, std::span<const std::uint32_t> quad,
+                const DVec3& normal, std::vector<Triangle>& triangles) {
+    const auto area = [&](int a, int b, int c) {
+        const DVec3& origin = positions[quad[a]];
+        return glm::dot(normal,
+                        glm::cross(positions[quad[b]] - origin, positions[quad[c]] - origin));
+    };
+    const double along_02 = std::min(area(0, 1, 2), area(0, 2, 3));
+    const double along_13 = std::min(area(0, 1, 3), area(1, 2, 3));
+    if (along_02 >= along_13) {
+        triangles.emplace_back(quad[0], quad[1], quad[2]);
+        triangles.emplace_back(quad[0], quad[2], quad[3]);
+    } else {
+        triangles.emplace_back(quad[0], quad[1], quad[3]);
+        triangles.emplace_back(quad[1], quad[2], quad[3]);
+    }
+    return std::max(along_02, along_13) >= 0.0;
+}
+
+void fan(std::span<const std::uint32_t> polygon, std::vector<Triangle>& triangles) {
+    for (std::size_t i = 2; i < polygon.size(); ++i) {
+        triangles.emplace_back(polygon[0], polygon[i - 1], polygon[i]);
+    }
+}
+
+}  // namespace
+
+bool triangulate(std::span<const DVec3> positions, std::span<const std::uint32_t> polygon,
+                 std::vector<Triangle>& triangles) {
+    ZSKEL_ASSERT(polygon.size() >= 3, "a polygon has three corners or more");
+    if (polygon.size() == 3) {
+        triangles.emplace_back(polygon[0], polygon[1], polygon[2]);
+        return true;
+    }
+    // Unit length, so that what follows neither over- nor underflows before the input does.
+    DVec3 normal = newell_normal(positions, polygon);
+    const double size = std::max({std::abs(normal.x), std::abs(normal.y), std::abs(normal.z)});
+    if (!(size > 0.0) || !std::isfinite(size)) {
+        fan(polygon, triangles);
+        return false;
+    }
+    normal /= size;
+    if (polygon.size() == 4) return split_quad(positions, polygon, normal, triangles);
+    return clip_ears(Outline(flatten(positions, polygon, normal), polygon), polygon.size(),
+                     triangles);
+}
+
+}  // namespace zskel

@@ -1,0 +1,20 @@
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "zskel/core/types.h"
+
+namespace zskel {
+
+/// Splits a polygon into corners - 2 triangles of the same winding, appended to `triangles`.
+/// Concave polygons are cut inside their outline; the plane is the one of Newell's normal.
+/// @param positions  of all vertices; the polygon's own are looked up.
+/// @param polygon    at least three vertex numbers, in order; may repeat and lie on a line.
+/// @return false where no proper cut exists (the outline crosses itself, or has no area): then a
+/// fan.
+bool triangulate(std::span<const DVec3> positions, std::span<const std::uint32_t> polygon,
+                 std::vector<Triangle>& triangles);
+
+}  // namespace zskel
