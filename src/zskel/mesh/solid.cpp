@@ -1,0 +1,109 @@
+#include "zskel/mesh/solid.h"
+
+#include <algorithm>
+
+#include "zskel/mesh/winding.h"
+
+namespace zskel {
+namespace {
+
+struct Component {
+    std::vector<Triangle> triangles;
+    Vec3 low{kInfinity};
+    Vec3 high{-kInfinity};
+    bool closed = false;
+    std::vector<std::uint32_t> around;  // closed components that contain this one
+};
+
+std::vector<Component> collect(const PreparedSurface& prepared) {
+    std::vector<Component> components(prepared.component_count);
+    for (std::size_t t = 0; t < prepared.component.size(); ++t) {
+        Component& part = components[prepared.component[t]];
+        part.triangles.push_back(prepared.surface.triangles[t]);
+        for (int k = 0; k < 3; ++k) {
+            const Vec3& p = prepared.surface.positions[part.triangles.back()[k]];
+            part.low = glm::min(part.low, p);
+            part.high = glm::max(part.high, p);
+        }
+    }
+    for (std::size_t i = 0; i < components.size(); ++i) {
+        components[i].closed = prepared.component_closed[i];
+    }
+    return components;
+}
+
+bool box_inside(const Component& inner, const Component& outer) {
+    return glm::all(glm::greaterThanEqual(inner.low, outer.low)) &&
+           glm::all(glm::lessThanEqual(inner.high, outer.high));
+}
+
+bool contains(const std::vector<Vec3>& positions, const Component& outer, const Component& inner) {
+    constexpr std::size_t kSamples = 16;
+    const std::size_t stride = std::max<std::size_t>(1, inner.triangles.size() / kSamples);
+    for (std::size_t t = 0; t < inner.triangles.size(); t += stride) {
+        const DVec3 sample(positions[inner.triangles[t].x]);
+        if (winding_number(positions, outer.triangles, sample) < 0.5) return false;
+    }
+    return true;
+}
+
+Solid make_solid(const PreparedSurface& prepared, const Component& shell,
+                 const std::vector<const Component*>& cavities) {
+    Solid solid;
+    solid.is_closed = shell.closed;
+    solid.cavity_count = static_cast<std::uint32_t>(cavities.size());
+    Surface& surface = solid.surface;
+    surface.world_from_model = prepared.surface.world_from_model;
+    surface.triangles = shell.triangles;
+    for (const Component* cavity : cavities) {
+        for (const Triangle& t : cavity->triangles) surface.triangles.emplace_back(t.x, t.z, t.y);
+    }
+    for (const Triangle& t : surface.triangles) {
+        solid.vertex.insert(solid.vertex.end(), {t.x, t.y, t.z});
+    }
+    std::sort(solid.vertex.begin(), solid.vertex.end());
+    solid.vertex.erase(std::unique(solid.vertex.begin(), solid.vertex.end()), solid.vertex.end());
+    for (Triangle& t : surface.triangles) {
+        for (int k = 0; k < 3; ++k) {
+            const auto at = std::lower_bound(solid.vertex.begin(), solid.vertex.end(), t[k]);
+            t[k] = static_cast<std::uint32_t>(at - solid.vertex.begin());
+        }
+    }
+    for (const std::uint32_t v : solid.vertex) {
+        surface.positions.push_back(prepared.surface.positions[v]);
+    }
+    derive_normals_and_edges(surface);
+    return solid;
+}
+
+}  // namespace
+
+std::vector<Solid> split_solids(const PreparedSurface& prepared) {
+    std::vector<Component> components = collect(prepared);
+    for (Component& inner : components) {
+        if (!inner.closed) continue;
+        for (std::uint32_t o = 0; o < components.size(); ++o) {
+            const Component& outer = components[o];
+            if (&outer == &inner || !outer.closed || !box_inside(inner, outer)) continue;
+            if (contains(prepared.surface.positions, outer, inner)) inner.around.push_back(o);
+        }
+    }
+    std::vector<std::vector<const Component*>> cavities(components.size());
+    for (const Component& part : components) {
+        if (part.around.size() % 2 == 0) continue;
+        // The nearest shell round a cavity is the one that lies inside all the others.
+        const std::uint32_t shell = *std::max_element(
+            part.around.begin(), part.around.end(), [&](std::uint32_t l, std::uint32_t r) {
+                return components[l].around.size() < components[r].around.size();
+            });
+        cavities[shell].push_back(&part);
+    }
+    std::vector<Solid> solids;
+    for (std::size_t i = 0; i < components.size(); ++i) {
+        if (components[i].around.size() % 2 != 0) continue;
+        solids.push_back(make_solid(prepared, components[i], cavities[i]));
+    }
+    return solids;
+}
+
+}  // namespace zskel

@@ -1,0 +1,301 @@
+#include "zskel/mesh/surface.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numeric>
+#include <unordered_map>
+
+#include "zskel/core/error.h"
+
+namespace zskel {
+namespace {
+
+struct PositionHash {
+    std::size_t operator()(const DVec3& p) const {
+        std::size_t hash = 0;
+        for (int k = 0; k < 3; ++k) {
+            const double value = p[k] == 0.0 ? 0.0 : p[k];  // -0 and +0 are the same place
+            hash = hash * 0x9E3779B97F4A7C15ull + std::hash<double>{}(value);
+        }
+        return hash;
+    }
+};
+
+// A side of a triangle: `forward` when the triangle runs from the lower to the higher vertex.
+struct Side {
+    glm::uvec2 edge;
+    std::uint32_t triangle;
+    bool forward;
+};
+
+std::vector<Side> sorted_sides(const std::vector<Triangle>& triangles) {
+    std::vector<Side> sides;
+    sides.reserve(triangles.size() * 3);
+    for (std::uint32_t t = 0; t < triangles.size(); ++t) {
+        for (int k = 0; k < 3; ++k) {
+            const std::uint32_t a = triangles[t][k];
+            const std::uint32_t b = triangles[t][(k + 1) % 3];
+            sides.push_back({{std::min(a, b), std::max(a, b)}, t, a < b});
+        }
+    }
+    std::sort(sides.begin(), sides.end(), [](const Side& l, const Side& r) {
+        return std::tie(l.edge.x, l.edge.y, l.triangle) < std::tie(r.edge.x, r.edge.y, r.triangle);
+    });
+    return sides;
+}
+
+// Calls visit(first, last) for each run of sides that share an edge.
+template <typename Visit>
+void for_each_edge(const std::vector<Side>& sides, Visit visit) {
+    for (std::size_t first = 0; first < sides.size();) {
+        std::size_t last = first + 1;
+        while (last < sides.size() && sides[last].edge == sides[first].edge) ++last;
+        visit(first, last);
+        first = last;
+    }
+}
+
+std::array<std::uint32_t, 3> sorted_corners(const Triangle& t) {
+    std::array<std::uint32_t, 3> corners{t.x, t.y, t.z};
+    std::sort(corners.begin(), corners.end());
+    return corners;
+}
+
+// Numbers the places that triangles use; `positions` come back in model space.
+struct Welded {
+    std::vector<DVec3> positions;
+    std::vector<Triangle> triangles;
+};
+
+Welded weld(const Mesh& mesh, PreparedSurface& out) {
+    Welded welded;
+    out.surface_vertex.assign(mesh.positions.size(), kNone);
+    std::unordered_map<DVec3, std::uint32_t, PositionHash> places;
+    places.reserve(mesh.positions.size());
+    std::size_t merged = 0;
+    std::size_t collapsed = 0;
+    for (const Triangle& triangle : mesh.triangles) {
+        Triangle corners;
+        for (int k = 0; k < 3; ++k) {
+            std::uint32_t& place = out.surface_vertex[triangle[k]];
+            if (place == kNone) {
+                const DVec3& position = mesh.positions[triangle[k]];
+                const auto next = static_cast<std::uint32_t>(welded.positions.size());
+                const auto [found, is_new] = places.try_emplace(position, next);
+                place = found->second;
+                if (is_new) welded.positions.push_back(position);
+                merged += is_new ? 0 : 1;
+            }
+            corners[k] = place;
+        }
+        const bool repeats =
+            corners.x == corners.y || corners.y == corners.z || corners.z == corners.x;
+        collapsed += repeats ? 1 : 0;
+        if (!repeats) welded.triangles.push_back(corners);
+    }
+    const auto unused = static_cast<std::size_t>(
+        std::count(out.surface_vertex.begin(), out.surface_vertex.end(), kNone));
+    if (merged > 0)
+        out.repairs.push_back({"vertices welded to another at the same position", merged});
+    if (collapsed > 0) out.repairs.push_back({"degenerate faces dropped", collapsed});
+    if (unused > 0) out.repairs.push_back({"vertices without a face left out", unused});
+    return welded;
+}
+
+void drop_duplicates(Welded& welded, PreparedSurface& out) {
+    std::vector<std::uint32_t> order(welded.triangles.size());
+    std::iota(order.begin(), order.end(), 0u);
+    std::vector<std::array<std::uint32_t, 3>> keys;
+    keys.reserve(order.size());
+    for (const Triangle& t : welded.triangles) keys.push_back(sorted_corners(t));
+    std::stable_sort(order.begin(), order.end(), [&](auto l, auto r) { return keys[l] < keys[r]; });
+    std::vector<bool> dropped(order.size(), false);
+    std::size_t count = 0;
+    for (std::size_t i = 1; i < order.size(); ++i) {
+        if (keys[order[i]] != keys[order[i - 1]]) continue;
+        dropped[order[i]] = true;
+        ++count;
+    }
+    if (count == 0) return;
+    std::vector<Triangle> kept;
+    for (std::size_t t = 0; t < dropped.size(); ++t) {
+        if (!dropped[t]) kept.push_back(welded.triangles[t]);
+    }
+    welded.triangles = std::move(kept);
+    out.repairs.push_back({"duplicate faces dropped", count});
+}
+
+// Twice the signed volume over three of the component's triangles, taken from its centroid:
+// positive when they face outward, closed or nearly so.
+double signed_volume(const Welded& welded, const std::vector<std::uint32_t>& members) {
+    DVec3 centroid(0.0);
+    for (const std::uint32_t t : members) centroid += welded.positions[welded.triangles[t].x];
+    centroid /= static_cast<double>(members.size());
+    double volume = 0.0;
+    for (const std::uint32_t t : members) {
+        const Triangle& tri = welded.triangles[t];
+        volume += glm::dot(
+            welded.positions[tri.x] - centroid,
+            glm::cross(welded.positions[tri.y] - centroid, welded.positions[tri.z] - centroid));
+    }
+    return volume;
+}
+
+// Walks every component over edges with two triangles, turning neighbours that disagree, then turns
+// the whole component when it faces inward.
+void orient(Welded& welded, PreparedSurface& out) {
+    const std::vector<Side> sides = sorted_sides(welded.triangles);
+    struct Link {
+        std::uint32_t triangle;
+        bool agrees;
+    };
+    std::vector<std::vector<Link>> links(welded.triangles.size());
+    std::vector<bool> touches_odd_edge(welded.triangles.size(), false);
+    std::size_t open_edges = 0;
+    std::size_t crowded_edges = 0;
+    for_each_edge(sides, [&](std::size_t first, std::size_t last) {
+        const std::size_t count = last - first;
+        open_edges += count == 1 ? 1 : 0;
+        crowded_edges += count > 2 ? 1 : 0;
+        for (std::size_t i = first; i < last && count != 2; ++i) {
+            touches_odd_edge[sides[i].triangle] = true;
+        }
+        for (std::size_t i = first; i + 1 < last; ++i) {
+            const bool agrees = sides[i].forward != sides[i + 1].forward;
+            links[sides[i].triangle].push_back({sides[i + 1].triangle, agrees || count > 2});
+            links[sides[i + 1].triangle].push_back({sides[i].triangle, agrees || count > 2});
+        }
+    });
+
+    std::size_t turned_faces = 0;
+    std::size_t turned_components = 0;
+    std::size_t contradictions = 0;
+    out.component.assign(welded.triangles.size(), kNone);
+    std::vector<bool> turned(welded.triangles.size(), false);
+    for (std::uint32_t start = 0; start < welded.triangles.size(); ++start) {
+        if (out.component[start] != kNone) continue;
+        std::vector<std::uint32_t> members{start};
+        out.component[start] = out.component_count;
+        bool closed = true;
+        for (std::size_t next = 0; next < members.size(); ++next) {
+            const std::uint32_t t = members[next];
+            closed = closed && !touches_odd_edge[t];
+            for (const Link& link : links[t]) {
+                const bool turn = turned[t] != !link.agrees;
+                if (out.component[link.triangle] == kNone) {
+                    out.component[link.triangle] = out.component_count;
+                    turned[link.triangle] = turn;
+                    members.push_back(link.triangle);
+                } else if (turned[link.triangle] != turn) {
+                    ++contradictions;
+                }
+            }
+        }
+        std::size_t turns = 0;
+        for (const std::uint32_t t : members) {
+            turns += turned[t] ? 1 : 0;
+            if (turned[t]) std::swap(welded.triangles[t].y, welded.triangles[t].z);
+        }
+        turned_faces += std::min(turns, members.size() - turns);
+        if (signed_volume(welded, members) < 0.0) {
+            for (const std::uint32_t t : members) {
+                std::swap(welded.triangles[t].y, welded.triangles[t].z);
+            }
+            turned_components += turns * 2 < members.size() ? 1 : 0;
+        }
+        out.component_closed.push_back(closed);
+        ++out.component_count;
+    }
+    if (turned_faces > 0)
+        out.repairs.push_back({"faces turned to agree with their neighbours", turned_faces});
+    if (turned_components > 0)
+        out.repairs.push_back({"inside-out components turned", turned_components});
+    if (open_edges > 0) {
+        out.repairs.push_back(
+            {"boundary edges left open: what is seen through them does not repel", open_edges});
+    }
+    if (crowded_edges > 0) {
+        out.repairs.push_back(
+            {"non-manifold edges kept: topology is not guaranteed", crowded_edges});
+    }
+    if (contradictions > 0) {
+        out.repairs.push_back({"edges where no consistent orientation exists", contradictions / 2});
+    }
+}
+
+Similarity unit_cube(const std::vector<DVec3>& positions, const std::string& name) {
+    DVec3 low(std::numeric_limits<double>::max());
+    DVec3 high(std::numeric_limits<double>::lowest());
+    for (const DVec3& p : positions) {
+        low = glm::min(low, p);
+        high = glm::max(high, p);
+    }
+    // Halved first: the extent of a model near the limits of a double must not overflow.
+    const DVec3 half = high * 0.5 - low * 0.5;
+    const double size = 2.0 * std::max({half.x, half.y, half.z});
+    if (!(size > 0.0) || !std::isfinite(size) || !std::isfinite(1.0 / size)) {
+        throw InputError(fmt::format(
+            "{}: the model's extent is {}; it needs a positive, finite one", name, size));
+    }
+    return {low + half, 1.0 / size};
+}
+
+}  // namespace
+
+PreparedSurface prepare_surface(const Mesh& mesh) {
+    PreparedSurface out;
+    Welded welded = weld(mesh, out);
+    drop_duplicates(welded, out);
+    if (welded.triangles.empty()) {
+        throw InputError(fmt::format("{}: no face with three different corners is left of {}",
+                                     mesh.name, mesh.triangles.size()));
+    }
+    orient(welded, out);
+    out.surface.world_from_model = unit_cube(welded.positions, mesh.name);
+    out.surface.positions.reserve(welded.positions.size());
+    for (const DVec3& p : welded.positions) {
+        out.surface.positions.push_back(out.surface.world_from_model.to_world(p));
+    }
+    out.surface.triangles = std::move(welded.triangles);
+    derive_normals_and_edges(out.surface);
+    const bool flat =
+        std::all_of(out.surface.triangle_normals.begin(), out.surface.triangle_normals.end(),
+                    [](const Vec3& n) { return n == Vec3(0.0f); });
+    if (flat) throw InputError(fmt::format("{}: no face has an area", mesh.name));
+    return out;
+}
+
+void derive_normals_and_edges(Surface& surface) {
+    surface.triangle_normals.assign(surface.triangles.size(), Vec3(0.0f));
+    std::vector<DVec3> sums(surface.positions.size(), DVec3(0.0));
+    for (std::size_t t = 0; t < surface.triangles.size(); ++t) {
+        const Triangle& tri = surface.triangles[t];
+        const std::array<DVec3, 3> p{surface.positions[tri.x], surface.positions[tri.y],
+                                     surface.positions[tri.z]};
+        const DVec3 normal = glm::cross(p[1] - p[0], p[2] - p[0]);
+        const double length = glm::length(normal);
+        if (!(length > 0.0)) continue;
+        surface.triangle_normals[t] = Vec3(normal / length);
+        for (int k = 0; k < 3; ++k) {
+            const DVec3 a = p[(k + 1) % 3] - p[k];
+            const DVec3 b = p[(k + 2) % 3] - p[k];
+            const double angle = std::atan2(glm::length(glm::cross(a, b)), glm::dot(a, b));
+            sums[tri[k]] += normal / length * angle;
+        }
+    }
+    surface.vertex_normals.clear();
+    surface.vertex_normals.reserve(sums.size());
+    for (const DVec3& sum : sums) {
+        const double length = glm::length(sum);
+        surface.vertex_normals.emplace_back(length > 0.0 ? Vec3(sum / length) : Vec3(0.0f));
+    }
+    surface.edges.clear();
+    const std::vector<Side> sides = sorted_sides(surface.triangles);
+    for_each_edge(
+        sides, [&](std::size_t first, std::size_t) { surface.edges.push_back(sides[first].edge); });
+}
+
+}  // namespace zskel

@@ -1,0 +1,56 @@
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "zskel/core/types.h"
+#include "zskel/mesh/mesh.h"
+
+namespace zskel {
+
+/// Centred, uniformly scaled: `world = (model - center) * scale`.
+struct Similarity {
+    DVec3 center{0.0};
+    double scale = 1.0;
+
+    Vec3 to_world(const DVec3& model) const { return Vec3((model - center) * scale); }
+    DVec3 to_model(const Vec3& world) const { return DVec3(world) / scale + center; }
+    double length_to_model(double world) const { return world / scale; }
+};
+
+/// Flat buffers of a triangle surface in world space; every triangle has three different corners.
+struct Surface {
+    std::vector<Vec3> positions;
+    std::vector<Triangle> triangles;
+    std::vector<Vec3> triangle_normals;  ///< unit, out of the solid; zero for a triangle without area
+    std::vector<Vec3> vertex_normals;    ///< unit, weighted by the angles of the triangles round it
+    std::vector<glm::uvec2> edges;       ///< each once, lower vertex first, sorted
+    Similarity world_from_model;
+};
+
+/// Something that had to be changed or is not as a solid should be; goes to the log and the output.
+struct Repair {
+    std::string what;
+    std::size_t count = 0;
+};
+
+/// A surface made ready from a mesh, and how the two correspond.
+struct PreparedSurface {
+    Surface surface;
+    std::vector<std::uint32_t> surface_vertex;       ///< of every input vertex; kNone when unused
+    std::vector<std::uint32_t> component;            ///< of every triangle: parts joined by edges
+    std::uint32_t component_count = 0;
+    std::vector<bool> component_closed;              ///< every edge has exactly two triangles
+    std::vector<Repair> repairs;
+};
+
+/// Welds equal positions, drops faces that repeat a corner or another face, orients every component
+/// (consistently, and outward by its signed volume), and scales the whole into the unit cube.
+/// @throws InputError when no triangle with area is left.
+PreparedSurface prepare_surface(const Mesh& mesh);
+
+/// Fills normals and edges from positions and triangles.
+void derive_normals_and_edges(Surface& surface);
+
+}  // namespace zskel

@@ -1,0 +1,104 @@
+// Nearest points and segments through Embree's hierarchy; the closest point of a triangle is found by
+// the regions of its barycentric coordinates (Ericson, Real-Time Collision Detection, 2005, 5.1.5).
+#include "zskel/visibility/surface_query.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "zskel/mesh/winding.h"
+#include "zskel/visibility/embree_scene.h"
+
+namespace zskel {
+namespace {
+
+Vec3 nearest_on_segment(const Vec3& p, const Vec3& a, const Vec3& b) {
+    const Vec3 ab = b - a;
+    const float length2 = glm::dot(ab, ab);
+    const float t = length2 > 0.0f ? std::clamp(glm::dot(p - a, ab) / length2, 0.0f, 1.0f) : 0.0f;
+    return a + t * ab;
+}
+
+Vec3 nearest_on_triangle(const Vec3& p, const Vec3& a, const Vec3& b, const Vec3& c) {
+    const Vec3 normal = glm::cross(b - a, c - a);
+    const float area2 = glm::dot(normal, normal);
+    if (area2 > 0.0f) {
+        const float wa = glm::dot(glm::cross(c - b, p - b), normal);
+        const float wb = glm::dot(glm::cross(a - c, p - c), normal);
+        const float wc = glm::dot(glm::cross(b - a, p - a), normal);
+        if (wa >= 0.0f && wb >= 0.0f && wc >= 0.0f) return p - normal * (glm::dot(p - a, normal) / area2);
+    }
+    Vec3 best = nearest_on_segment(p, a, b);
+    for (const Vec3& other : {nearest_on_segment(p, b, c), nearest_on_segment(p, c, a)}) {
+        if (glm::distance(p, other) < glm::distance(p, best)) best = other;
+    }
+    return best;
+}
+
+struct NearestSearch {
+    const Surface* surface;
+    Vec3 point;
+    SurfaceQuery::Nearest best;
+};
+
+bool visit_triangle(RTCPointQueryFunctionArguments* arguments) {
+    auto& search = *static_cast<NearestSearch*>(arguments->userPtr);
+    const std::uint32_t id = arguments->primID;
+    const Triangle& t = search.surface->triangles[id];
+    const auto& positions = search.surface->positions;
+    const Vec3 found =
+        nearest_on_triangle(search.point, positions[t.x], positions[t.y], positions[t.z]);
+    const float distance = glm::distance(search.point, found);
+    // Ties go to the lowest triangle, whatever order the hierarchy is walked in.
+    if (distance > search.best.distance ||
+        (distance == search.best.distance && id > search.best.triangle)) {
+        return false;
+    }
+    search.best = {distance, found, id};
+    arguments->query->radius = distance;
+    return true;
+}
+
+}  // namespace
+
+struct SurfaceQuery::Impl {
+    explicit Impl(const Surface& s) : surface(s), scene(s) {}
+    const Surface& surface;
+    EmbreeScene scene;
+};
+
+SurfaceQuery::SurfaceQuery(const Surface& surface) : impl_(std::make_unique<Impl>(surface)) {}
+SurfaceQuery::~SurfaceQuery() = default;
+
+SurfaceQuery::Nearest SurfaceQuery::nearest(const Vec3& point) const {
+    NearestSearch search{&impl_->surface, point, {}};
+    RTCPointQuery query{point.x, point.y, point.z, 0.0f, kInfinity};
+    RTCPointQueryContext context;
+    rtcInitPointQueryContext(&context);
+    rtcPointQuery(impl_->scene.get(), &query, &context, visit_triangle, &search);
+    return search.best;
+}
+
+std::optional<SurfaceQuery::Hit> SurfaceQuery::first_hit(const Vec3& from, const Vec3& to) const {
+    RTCIntersectContext context;
+    rtcInitIntersectContext(&context);
+    RTCRayHit ray{};
+    const Vec3 along = to - from;
+    ray.ray.org_x = from.x;
+    ray.ray.org_y = from.y;
+    ray.ray.org_z = from.z;
+    ray.ray.dir_x = along.x;
+    ray.ray.dir_y = along.y;
+    ray.ray.dir_z = along.z;
+    ray.ray.tfar = 1.0f;
+    ray.ray.mask = 0xFFFFFFFFu;
+    ray.hit.geomID = RTC_INVALID_GEOMETRY_ID;
+    rtcIntersect1(impl_->scene.get(), &context, &ray);
+    if (ray.hit.geomID == RTC_INVALID_GEOMETRY_ID) return std::nullopt;
+    return Hit{ray.ray.tfar, ray.hit.primID};
+}
+
+double SurfaceQuery::winding_number(const Vec3& point) const {
+    return zskel::winding_number(impl_->surface.positions, impl_->surface.triangles, DVec3(point));
+}
+
+}  // namespace zskel

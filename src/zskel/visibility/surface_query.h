@@ -1,0 +1,41 @@
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+
+#include "zskel/mesh/surface.h"
+
+namespace zskel {
+
+/// Exact questions about a surface, prepared once; world space. Thread-safe.
+class SurfaceQuery {
+  public:
+    /// `surface` must outlive the query.
+    explicit SurfaceQuery(const Surface& surface);
+    ~SurfaceQuery();
+
+    struct Nearest {
+        float distance = kInfinity;
+        Vec3 point{0.0f};
+        std::uint32_t triangle = kNone;
+    };
+    /// The surface point nearest to `point`: the inscribed radius, where `point` is inside.
+    Nearest nearest(const Vec3& point) const;
+
+    struct Hit {
+        float fraction = 0.0f;        ///< of the way from `from` to `to`
+        std::uint32_t triangle = kNone;
+    };
+    /// The first triangle that the segment meets; nothing when it is free.
+    std::optional<Hit> first_hit(const Vec3& from, const Vec3& to) const;
+
+    /// Winding number about `point`, exact also for open surfaces. O(triangles).
+    double winding_number(const Vec3& point) const;
+
+  private:
+    struct Impl;
+    std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace zskel
