@@ -1,0 +1,104 @@
+#include "zskel/io/output_file.h"
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <array>
+#include <atomic>
+#include <cerrno>
+#include <cstdio>
+#include <cstring>
+
+#include "zskel/core/error.h"
+
+namespace zskel {
+namespace {
+
+// Paths of the writes in progress, kept where a signal handler may read them: fixed slots of plain bytes.
+constexpr std::size_t kSlots = 8;
+constexpr std::size_t kMaxPath = 4096;
+struct Slot {
+    std::atomic<bool> taken{false};
+    std::atomic<bool> armed{false};
+    std::array<char, kMaxPath> path{};
+};
+std::array<Slot, kSlots>& slots() {
+    static std::array<Slot, kSlots> all;
+    return all;
+}
+
+class Unfinished {
+  public:
+    explicit Unfinished(const std::string& path) {
+        if (path.size() >= kMaxPath) throw IoError(fmt::format("{}: the path is too long", path));
+        for (Slot& slot : slots()) {
+            bool expected = false;
+            if (!slot.taken.compare_exchange_strong(expected, true)) continue;
+            std::memcpy(slot.path.data(), path.c_str(), path.size() + 1);
+            slot.armed = true;
+            slot_ = &slot;
+            return;
+        }
+        throw IoError(fmt::format("{}: more than {} files are being written at once", path, kSlots));
+    }
+    ~Unfinished() {
+        if (slot_->armed) std::remove(slot_->path.data());
+        done();
+        slot_->taken = false;
+    }
+    Unfinished(const Unfinished&) = delete;
+    Unfinished& operator=(const Unfinished&) = delete;
+    void done() { slot_->armed = false; }
+
+  private:
+    Slot* slot_ = nullptr;
+};
+
+[[noreturn]] void fail(const std::string& path) {
+    throw IoError(fmt::format("{}: cannot write: {}", path, std::strerror(errno)));
+}
+
+void write_all(std::FILE* file, std::string_view text, const std::string& path) {
+    const std::size_t written = std::fwrite(text.data(), 1, text.size(), file);
+    if (written != text.size() || std::fflush(file) != 0) fail(path);
+}
+
+}  // namespace
+
+void write_output_file(const std::string& path,
+                       const std::function<void(const std::string& temporary_path)>& write) {
+    // The extension stays at the end, for writers that choose their format by it.
+    const std::size_t slash = path.find_last_of('/') + 1;
+    const std::string temporary =
+        fmt::format("{}.{}.partial.{}", path.substr(0, slash), ::getpid(), path.substr(slash));
+    Unfinished guard(temporary);
+    write(temporary);
+    if (std::rename(temporary.c_str(), path.c_str()) != 0) fail(path);
+    guard.done();
+}
+
+void write_output_text(const std::string& path, std::string_view text) {
+    if (path == "-") {
+        write_all(stdout, text, "standard output");
+        return;
+    }
+    write_output_file(path, [&](const std::string& temporary) {
+        std::FILE* file = std::fopen(temporary.c_str(), "wb");
+        if (file == nullptr) fail(path);
+        try {
+            write_all(file, text, path);
+        } catch (...) {
+            std::fclose(file);
+            throw;
+        }
+        if (std::fclose(file) != 0) fail(path);
+    });
+}
+
+void remove_unfinished_files() noexcept {
+    for (Slot& slot : slots()) {
+        if (slot.armed) ::unlink(slot.path.data());
+    }
+}
+
+}  // namespace zskel
