@@ -21,4 +21,7 @@ Mesh read_ply(std::string_view bytes, std::string_view name);
 /// STL, ascii or binary; corners at equal positions become one vertex, numbered as first seen.
 Mesh read_stl(std::string_view bytes, std::string_view name);
 
+/// True when the length is the one that a binary STL's own count of facets asks for.
+bool is_binary_stl(std::string_view bytes);
+
 }  // namespace zskel

@@ -76,18 +76,6 @@ std::optional<MeshFormat> format_of_extension(const std::string& path) {
     return std::nullopt;
 }
 
-/// Binary STL has no mark of its own, but its length follows from the count behind its header.
-bool is_binary_stl(std::string_view bytes) {
-    constexpr std::size_t kHead = 84;
-    constexpr std::size_t kFacet = 50;
-    if (bytes.size() < kHead) return false;
-    std::size_t count = 0;
-    for (std::size_t i = 0; i < 4; ++i) {
-        count |= static_cast<std::size_t>(static_cast<unsigned char>(bytes[80 + i])) << (8 * i);
-    }
-    return bytes.size() == kHead + count * kFacet;
-}
-
 MeshFormat format_of_content(std::string_view bytes, const std::string& name) {
     TextCursor text(bytes, name, {.hash_comments = true, .joined_lines = false});
     const std::string_view word = text.to_content() ? text.word() : std::string_view{};
@@ -130,8 +118,11 @@ Mesh parse_mesh(std::span<const std::byte> bytes, MeshFormat format, const std::
             mesh = read_off(text, name);
             break;
         case MeshFormat::Ply:
+            mesh = read_ply(text, name);
+            break;
         case MeshFormat::Stl:
-            throw InputError(fmt::format("{}: PLY and STL are not read yet", name));
+            mesh = read_stl(text, name);
+            break;
     }
     mesh.hash = XXH3_64bits(bytes.data(), bytes.size());
     return mesh;
