@@ -19,6 +19,12 @@ double corner_angle(double u, double v) { return std::atan2(u * v, std::sqrt(u *
 
 }  // namespace
 
+void check_face_px(int face_px) {
+    if (face_px < kMinFacePx || face_px > kMaxFacePx) {
+        throw UsageError(fmt::format("a cube face of {} texels: give {} to {}", face_px, kMinFacePx, kMaxFacePx));
+    }
+}
+
 const std::array<CubeFace, 6>& cube_faces() {
     static const std::array<CubeFace, 6> faces{{
         {{0, 0, -1}, {0, -1, 0}, {1, 0, 0}},
@@ -79,9 +85,7 @@ Texel texel_of_direction(const DVec3& direction, int face_px) {
 }
 
 Directions cube_directions(int face_px) {
-    if (face_px < kMinFacePx || face_px > kMaxFacePx) {
-        throw UsageError(fmt::format("a cube face of {} texels: give {} to {}", face_px, kMinFacePx, kMaxFacePx));
-    }
+    check_face_px(face_px);
     Directions out;
     out.face_px = face_px;
     const std::size_t count = 6 * static_cast<std::size_t>(face_px) * static_cast<std::size_t>(face_px);

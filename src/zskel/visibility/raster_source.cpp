@@ -17,86 +17,44 @@
 #include "zskel/visibility/cube_map.h"
 
 namespace zskel {
-namespace {
 
 constexpr int kFaces = 6;
 
-class RasterSource : public VisibilitySource {
+class RasterPipeline {
   public:
-    RasterSource(const Surface& solid, int face_px, gl::Context& context)
-        : VisibilitySource(solid, cube_directions(face_px)), context_(context), face_px_(face_px) {
-        axial_to_radial_.reserve(directions().size());
-        for (std::size_t i = 0; i < directions().size(); ++i) {
+    RasterPipeline(int face_px, gl::Context& context)
+        : context_(context), face_px_(face_px), directions_(cube_directions(face_px)) {
+        axial_to_radial_.reserve(directions_.size());
+        for (std::size_t i = 0; i < directions_.size(); ++i) {
             const double length = glm::length(texel_direction(texel_at(i, face_px), face_px));
             axial_to_radial_.push_back(static_cast<float>(length * static_cast<double>(kNearPlane)));
         }
-        context_.run("preparing the raster source", [&](const gl::Api& gl) { prepare(gl); });
+        context_.run("preparing the raster pipeline", [&](const gl::Api& gl) { prepare(gl); });
     }
 
-    ~RasterSource() override {
-        context_.run("releasing the raster source", [&](const gl::Api& gl) {
+    ~RasterPipeline() {
+        context_.run("releasing the raster pipeline", [&](const gl::Api& gl) {
             if (target_) target_->destroy(gl);
-            gl.DeleteVertexArrays(1, &vertex_array_);
-            const GLuint buffers[] = {vertices_, indices_, eyes_};
-            gl.DeleteBuffers(3, buffers);
+            gl.DeleteBuffers(1, &eyes_);
             gl.DeleteProgram(program_);
         });
     }
+    RasterPipeline(const RasterPipeline&) = delete;
+    RasterPipeline& operator=(const RasterPipeline&) = delete;
 
-    void render(std::span<const Vec3> eyes, MapBatch& maps) override {
-        maps.resize(eyes.size(), directions().size());
-        const std::size_t batch = max_batch();
-        for (std::size_t first = 0; first < eyes.size(); first += batch) {
-            const std::size_t count = std::min(batch, eyes.size() - first);
-            const std::size_t texels = count * maps.directions;
-            const auto distance = std::span(maps.distance).subspan(first * maps.directions, texels);
-            const auto id = std::span(maps.id).subspan(first * maps.directions, texels);
-            context_.run("rendering cube maps", [&](const gl::Api& gl) {
-                draw(gl, eyes.subspan(first, count), distance, id);
-            });
-        }
-        parallel_for(eyes.size(), 8, [&](std::size_t begin, std::size_t end) {
-            for (std::size_t i = begin; i < end; ++i) to_radial(&maps.distance[i * maps.directions]);
-        });
-    }
+    gl::Context& context() { return context_; }
+    const Directions& directions() const { return directions_; }
 
-  private:
     // Eyes a pass: what the layers allow, and no more than 64 MB of texels.
     std::size_t max_batch() const {
         const std::size_t by_layers = static_cast<std::size_t>(context_.info().max_layers) / kFaces;
-        const std::size_t by_memory = (std::size_t{1} << 23) / directions().size();
+        const std::size_t by_memory = (std::size_t{1} << 23) / directions_.size();
         return std::clamp<std::size_t>(by_memory, 1, std::min<std::size_t>(by_layers, 256));
     }
 
-    void prepare(const gl::Api& gl) {
-        program_ = gl::build_program(gl, {{GL_VERTEX_SHADER, "depth.vert", glsl::kDepthVert},
-                                          {GL_FRAGMENT_SHADER, "depth.frag", glsl::kDepthFrag}});
-        const Surface& surface = solid();
-        vertices_ = gl::make_buffer(gl, surface.positions.data(),
-                                    static_cast<GLsizeiptr>(surface.positions.size() * sizeof(Vec3)));
-        indices_ = gl::make_buffer(gl, surface.triangles.data(),
-                                   static_cast<GLsizeiptr>(surface.triangles.size() * sizeof(Triangle)));
-        eyes_ = gl::make_buffer(gl, nullptr, static_cast<GLsizeiptr>(max_batch() * sizeof(glm::vec4)),
-                                GL_DYNAMIC_STORAGE_BIT);
-        gl.CreateVertexArrays(1, &vertex_array_);
-        gl.VertexArrayVertexBuffer(vertex_array_, 0, vertices_, 0, sizeof(Vec3));
-        gl.VertexArrayAttribFormat(vertex_array_, 0, 3, GL_FLOAT, GL_FALSE, 0);
-        gl.VertexArrayAttribBinding(vertex_array_, 0, 0);
-        gl.EnableVertexArrayAttrib(vertex_array_, 0);
-        gl.VertexArrayElementBuffer(vertex_array_, indices_);
-        gl.UseProgram(program_);
-        gl.Uniform1f(gl::uniform(gl, program_, "near_plane"), kNearPlane);
-        std::array<glm::mat3, kFaces> face_from_world{};
-        for (std::size_t f = 0; f < kFaces; ++f) {
-            const CubeFace& face = cube_faces()[f];
-            face_from_world[f] = glm::transpose(glm::mat3(face.right, face.up, face.forward));
-        }
-        gl.UniformMatrix3fv(gl::uniform(gl, program_, "face_from_world"), kFaces, GL_FALSE,
-                            &face_from_world[0][0][0]);
-    }
-
-    void draw(const gl::Api& gl, std::span<const Vec3> eyes, std::span<float> depth,
-              std::span<std::uint32_t> id) {
+    // One pass: `elements` indices of the bound solid for every face of every eye. Leaves near/z in `depth`.
+    void draw(const gl::Api& gl, GLuint vertex_array, std::size_t elements, std::span<const Vec3> eyes,
+              std::span<float> depth, std::span<std::uint32_t> id) {
         const int layers = static_cast<int>(eyes.size()) * kFaces;
         if (!target_ || target_->layers() < layers) {
             if (target_) target_->destroy(gl);
@@ -110,36 +68,113 @@ class RasterSource : public VisibilitySource {
         gl::set_reversed_depth(gl);
         target_->begin(gl);
         gl.UseProgram(program_);
-        gl.BindVertexArray(vertex_array_);
+        gl.BindVertexArray(vertex_array);
         gl.BindBufferBase(GL_SHADER_STORAGE_BUFFER, 0, eyes_);
-        gl.DrawElementsInstanced(GL_TRIANGLES, static_cast<GLsizei>(solid().triangles.size() * 3),
-                                 GL_UNSIGNED_INT, nullptr, layers);
+        gl.DrawElementsInstanced(GL_TRIANGLES, static_cast<GLsizei>(elements), GL_UNSIGNED_INT, nullptr,
+                                 layers);
         target_->read(gl, layers, depth, id);
     }
 
     // In place: near/z becomes a distance; what was never drawn has depth 0 and becomes +inf.
-    void to_radial(float* texels) const {
-        for (std::size_t i = 0; i < axial_to_radial_.size(); ++i) {
+    void to_radial(std::span<float> texels) const {
+        for (std::size_t i = 0; i < texels.size(); ++i) {
             texels[i] = texels[i] > 0.0f ? axial_to_radial_[i] / texels[i] : kInfinity;
         }
     }
 
+  private:
+    void prepare(const gl::Api& gl) {
+        program_ = gl::build_program(gl, {{GL_VERTEX_SHADER, "depth.vert", glsl::kDepthVert},
+                                          {GL_FRAGMENT_SHADER, "depth.frag", glsl::kDepthFrag}});
+        eyes_ = gl::make_buffer(gl, nullptr, static_cast<GLsizeiptr>(max_batch() * sizeof(glm::vec4)),
+                                GL_DYNAMIC_STORAGE_BIT);
+        gl.UseProgram(program_);
+        gl.Uniform1f(gl::uniform(gl, program_, "near_plane"), kNearPlane);
+        std::array<glm::mat3, kFaces> face_from_world{};
+        for (std::size_t f = 0; f < kFaces; ++f) {
+            const CubeFace& face = cube_faces()[f];
+            face_from_world[f] = glm::transpose(glm::mat3(face.right, face.up, face.forward));
+        }
+        gl.UniformMatrix3fv(gl::uniform(gl, program_, "face_from_world"), kFaces, GL_FALSE,
+                            &face_from_world[0][0][0]);
+    }
+
     gl::Context& context_;
     int face_px_;
+    Directions directions_;
     std::vector<float> axial_to_radial_;  // |d| times the near plane
     std::optional<gl::DepthTarget> target_;
     GLuint program_ = 0;
+    GLuint eyes_ = 0;
+};
+
+namespace {
+
+class RasterSource : public VisibilitySource {
+  public:
+    RasterSource(const Surface& solid, RasterPipeline& pipeline)
+        : VisibilitySource(solid, pipeline.directions()), pipeline_(pipeline) {
+        pipeline_.context().run("preparing the raster source", [&](const gl::Api& gl) { upload(gl); });
+    }
+
+    ~RasterSource() override {
+        pipeline_.context().run("releasing the raster source", [&](const gl::Api& gl) {
+            gl.DeleteVertexArrays(1, &vertex_array_);
+            const GLuint buffers[] = {vertices_, indices_};
+            gl.DeleteBuffers(2, buffers);
+        });
+    }
+
+    void render(std::span<const Vec3> eyes, MapBatch& maps) override {
+        const std::size_t texels = directions().size();
+        maps.resize(eyes.size(), texels);
+        const std::size_t batch = pipeline_.max_batch();
+        for (std::size_t first = 0; first < eyes.size(); first += batch) {
+            const std::size_t count = std::min(batch, eyes.size() - first);
+            pipeline_.context().run("rendering cube maps", [&](const gl::Api& gl) {
+                pipeline_.draw(gl, vertex_array_, solid().triangles.size() * 3, eyes.subspan(first, count),
+                               std::span(maps.distance).subspan(first * texels, count * texels),
+                               std::span(maps.id).subspan(first * texels, count * texels));
+            });
+        }
+        parallel_for(eyes.size(), 8, [&](std::size_t begin, std::size_t end) {
+            for (std::size_t i = begin; i < end; ++i) {
+                pipeline_.to_radial(std::span(maps.distance).subspan(i * texels, texels));
+            }
+        });
+    }
+
+  private:
+    void upload(const gl::Api& gl) {
+        const Surface& surface = solid();
+        vertices_ = gl::make_buffer(gl, surface.positions.data(),
+                                    static_cast<GLsizeiptr>(surface.positions.size() * sizeof(Vec3)));
+        indices_ = gl::make_buffer(gl, surface.triangles.data(),
+                                   static_cast<GLsizeiptr>(surface.triangles.size() * sizeof(Triangle)));
+        gl.CreateVertexArrays(1, &vertex_array_);
+        gl.VertexArrayVertexBuffer(vertex_array_, 0, vertices_, 0, sizeof(Vec3));
+        gl.VertexArrayAttribFormat(vertex_array_, 0, 3, GL_FLOAT, GL_FALSE, 0);
+        gl.VertexArrayAttribBinding(vertex_array_, 0, 0);
+        gl.EnableVertexArrayAttrib(vertex_array_, 0);
+        gl.VertexArrayElementBuffer(vertex_array_, indices_);
+    }
+
+    RasterPipeline& pipeline_;
     GLuint vertex_array_ = 0;
     GLuint vertices_ = 0;
     GLuint indices_ = 0;
-    GLuint eyes_ = 0;
 };
 
 }  // namespace
 
-std::unique_ptr<VisibilitySource> make_raster_source(const Surface& solid, int face_px,
-                                                     gl::Context& context) {
-    return std::make_unique<RasterSource>(solid, face_px, context);
+void RasterPipelineDeleter::operator()(RasterPipeline* pipeline) const { delete pipeline; }
+
+RasterPipelinePtr make_raster_pipeline(int face_px, gl::Context& context) {
+    return RasterPipelinePtr(new RasterPipeline(face_px, context));
+}
+
+std::unique_ptr<VisibilitySource> make_raster_source(const Surface& solid, RasterPipeline& pipeline) {
+    return std::make_unique<RasterSource>(solid, pipeline);
 }
 
 }  // namespace zskel

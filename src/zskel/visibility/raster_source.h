@@ -10,11 +10,20 @@ namespace zskel {
 /// Near plane of the cube maps, world units: surface nearer to an eye than this is not seen.
 inline constexpr float kNearPlane = 1e-6f;
 
-/// Visibility by the Z-buffer: cube maps of `face_px` texels a side, rendered through `context` into a layered
-/// reversed-Z 32F depth target with the triangle's number beside it, and read back. Nothing is culled, so
-/// that the share of back faces tells when an eye has left the solid.
-/// `solid` and `context` must outlive the source. @throws GlError, UsageError (face_px).
-std::unique_ptr<VisibilitySource> make_raster_source(const Surface& solid, int face_px,
-                                                     gl::Context& context);
+/// What all raster sources of one context share: shaders, the depth target, and the tables of one map size.
+class RasterPipeline;
+struct RasterPipelineDeleter {
+    void operator()(RasterPipeline* pipeline) const;
+};
+using RasterPipelinePtr = std::unique_ptr<RasterPipeline, RasterPipelineDeleter>;
+
+/// Cube maps of `face_px` texels a side through `context`, which must outlive the pipeline.
+/// @throws GlError, UsageError (face_px).
+RasterPipelinePtr make_raster_pipeline(int face_px, gl::Context& context);
+
+/// Visibility by the Z-buffer: the solid is rendered into a layered reversed-Z 32F depth target with the
+/// triangle's number beside it, and read back. Nothing is culled, so that the share of back faces tells when
+/// an eye has left the solid. `solid` and `pipeline` must outlive the source. @throws GlError.
+std::unique_ptr<VisibilitySource> make_raster_source(const Surface& solid, RasterPipeline& pipeline);
 
 }  // namespace zskel

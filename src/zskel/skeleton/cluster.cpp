@@ -1,0 +1,112 @@
+#include "zskel/skeleton/cluster.h"
+
+#include <algorithm>
+#include <queue>
+#include <tuple>
+
+
+namespace zskel {
+namespace {
+
+struct Pair {
+    double distance;
+    std::uint32_t a;      // cluster names: their number in order of making, points first
+    std::uint32_t b;
+    bool operator>(const Pair& other) const {
+        return std::tie(distance, a, b) > std::tie(other.distance, other.a, other.b);
+    }
+};
+
+struct Cluster {
+    DVec3 sum{0.0};
+    double count = 0.0;
+    std::vector<std::uint32_t> neighbours;   // may name clusters that have been merged since
+    std::uint32_t merged_into = kNone;
+
+    DVec3 center() const { return sum / count; }
+};
+
+class Merger {
+  public:
+    Merger(std::span<const Vec3> points, std::span<const glm::uvec2> links, double range) : range_(range) {
+        clusters_.reserve(points.size() * 2);
+        for (const Vec3& p : points) clusters_.push_back({DVec3(p), 1.0, {}, kNone});
+        for (const glm::uvec2& link : links) {
+            clusters_[link.x].neighbours.push_back(link.y);
+            clusters_[link.y].neighbours.push_back(link.x);
+            offer(link.x, link.y);
+        }
+    }
+
+    void run() {
+        while (!queue_.empty()) {
+            const Pair pair = queue_.top();
+            queue_.pop();
+            const bool alive = clusters_[pair.a].merged_into == kNone && clusters_[pair.b].merged_into == kNone;
+            if (alive) merge(pair.a, pair.b);
+        }
+    }
+
+    std::uint32_t survivor(std::uint32_t cluster) {
+        while (clusters_[cluster].merged_into != kNone) cluster = clusters_[cluster].merged_into;
+        return cluster;
+    }
+
+    const Cluster& at(std::uint32_t cluster) const { return clusters_[cluster]; }
+
+  private:
+    void offer(std::uint32_t a, std::uint32_t b) {
+        const double distance = glm::distance(clusters_[a].center(), clusters_[b].center());
+        if (distance <= range_) queue_.push({distance, std::min(a, b), std::max(a, b)});
+    }
+
+    // A merged pair gets a new name, so that entries in the queue for its parts are known to be stale.
+    void merge(std::uint32_t a, std::uint32_t b) {
+        const auto name = static_cast<std::uint32_t>(clusters_.size());
+        Cluster merged;
+        merged.sum = clusters_[a].sum + clusters_[b].sum;
+        merged.count = clusters_[a].count + clusters_[b].count;
+        for (const std::uint32_t part : {a, b}) {
+            for (const std::uint32_t n : clusters_[part].neighbours) {
+                const std::uint32_t living = survivor(n);
+                if (living != a && living != b) merged.neighbours.push_back(living);
+            }
+            clusters_[part].merged_into = name;
+            clusters_[part].neighbours = {};
+        }
+        std::sort(merged.neighbours.begin(), merged.neighbours.end());
+        merged.neighbours.erase(std::unique(merged.neighbours.begin(), merged.neighbours.end()),
+                                merged.neighbours.end());
+        clusters_.push_back(std::move(merged));
+        for (const std::uint32_t n : clusters_[name].neighbours) {
+            clusters_[n].neighbours.push_back(name);
+            offer(name, n);
+        }
+    }
+
+    double range_;
+    std::vector<Cluster> clusters_;
+    std::priority_queue<Pair, std::vector<Pair>, std::greater<>> queue_;
+};
+
+}  // namespace
+
+Clusters cluster_minima(std::span<const Vec3> points, std::span<const glm::uvec2> links,
+                        const ClusterOptions& options) {
+    Merger merger(points, links, options.range_world);
+    merger.run();
+    Clusters out;
+    out.of_point.resize(points.size());
+    std::vector<std::uint32_t> number(points.size() * 2, kNone);
+    for (std::uint32_t p = 0; p < points.size(); ++p) {
+        const std::uint32_t cluster = merger.survivor(p);
+        if (number[cluster] == kNone) {
+            number[cluster] = static_cast<std::uint32_t>(out.centers.size());
+            out.centers.emplace_back(merger.at(cluster).center());
+        }
+        out.of_point[p] = number[cluster];
+    }
+    return out;
+}
+
+}  // namespace zskel

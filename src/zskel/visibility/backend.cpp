@@ -1,0 +1,144 @@
+#include "zskel/visibility/backend.h"
+
+#include <embree3/rtcore.h>
+#include <fmt/format.h>
+
+#include <array>
+#include <utility>
+
+#include "zskel/core/error.h"
+#include "zskel/core/log.h"
+#include "zskel/visibility/cube_map.h"
+#include "zskel/visibility/raster_source.h"
+#include "zskel/visibility/ray_source.h"
+
+namespace zskel {
+namespace {
+
+constexpr std::array<std::pair<BackendKind, std::string_view>, 6> kNames{{
+    {BackendKind::Auto, "auto"},
+    {BackendKind::Gl, "gl"},
+    {BackendKind::Egl, "egl"},
+    {BackendKind::Osmesa, "osmesa"},
+    {BackendKind::Ray, "ray"},
+    {BackendKind::Brute, "brute"},
+}};
+
+class GlBackend : public Backend {
+  public:
+    GlBackend(BackendInfo info, std::unique_ptr<gl::Context> context, int face_px)
+        : Backend(std::move(info)), context_(std::move(context)), pipeline_(make_raster_pipeline(face_px, *context_)) {}
+    std::unique_ptr<VisibilitySource> prepare(const Surface& solid) override {
+        return make_raster_source(solid, *pipeline_);
+    }
+
+  private:
+    std::unique_ptr<gl::Context> context_;
+    RasterPipelinePtr pipeline_;
+};
+
+class RayBackend : public Backend {
+  public:
+    RayBackend(BackendInfo info, Directions directions, RayMethod method)
+        : Backend(std::move(info)), directions_(std::move(directions)), method_(method) {}
+    std::unique_ptr<VisibilitySource> prepare(const Surface& solid) override {
+        return make_ray_source(solid, directions_, method_);
+    }
+
+  private:
+    Directions directions_;
+    RayMethod method_;
+};
+
+bool is_ray(BackendKind kind) { return kind == BackendKind::Ray || kind == BackendKind::Brute; }
+
+gl::ContextRequest request_for(const BackendOptions& options) {
+    gl::ContextRequest request;
+    request.gpu = options.gpu;
+    request.hardware = options.kind != BackendKind::Osmesa;
+    request.software = options.kind != BackendKind::Osmesa;
+    request.osmesa = options.kind != BackendKind::Egl;
+    return request;
+}
+
+std::unique_ptr<Backend> open_rays(const BackendOptions& options, BackendInfo info) {
+    const bool brute = options.kind == BackendKind::Brute;
+    info.name = brute ? "brute" : "ray";
+    info.vendor = brute ? "zskel" : "Embree";
+    info.renderer = brute ? "every ray against every triangle" : "packets of 16 rays";
+    info.version = brute ? ZSKEL_VERSION : RTC_VERSION_STRING;
+    Directions directions =
+        options.rays > 0 ? radial_directions(options.rays) : cube_directions(options.face_px);
+    return std::make_unique<RayBackend>(std::move(info), std::move(directions),
+                                        brute ? RayMethod::BruteForce : RayMethod::Embree);
+}
+
+std::string reasons(const std::vector<gl::FailedAttempt>& failed) {
+    std::string text;
+    for (const gl::FailedAttempt& attempt : failed) {
+        text += fmt::format("{}{}: {}", text.empty() ? "" : "; ", attempt.candidate, attempt.reason);
+    }
+    return text.empty() ? "no candidate" : text;
+}
+
+void check_options(const BackendOptions& options) {
+    if (options.rays != 0 && !is_ray(options.kind)) {
+        throw UsageError(fmt::format("--rays goes with --backend ray or brute; {} samples a cube map (--face-px)",
+                                     name_of(options.kind)));
+    }
+    const bool no_gpu = is_ray(options.kind) || options.kind == BackendKind::Osmesa;
+    if (options.gpu >= 0 && no_gpu) {
+        throw UsageError(fmt::format("--gpu goes with a GL backend on hardware, not with {}", name_of(options.kind)));
+    }
+    check_face_px(options.face_px);
+}
+
+}  // namespace
+
+BackendKind parse_backend(std::string_view name) {
+    for (const auto& [kind, known] : kNames) {
+        if (known == name) return kind;
+    }
+    throw UsageError(fmt::format("unknown backend '{}': auto, gl, egl, osmesa, ray or brute", name));
+}
+
+std::string_view name_of(BackendKind kind) {
+    for (const auto& [known, name] : kNames) {
+        if (known == kind) return name;
+    }
+    return "";
+}
+
+std::unique_ptr<Backend> open_backend(const BackendOptions& options) {
+    check_options(options);
+    BackendInfo info;
+    if (is_ray(options.kind)) return open_rays(options, info);
+    std::unique_ptr<gl::Context> context = gl::open_context(request_for(options), info.failed);
+    if (context != nullptr) {
+        info.name = gl::name_of(context->info().kind);
+        info.vendor = context->info().vendor;
+        info.renderer = context->info().renderer;
+        info.version = context->info().version;
+        return std::make_unique<GlBackend>(std::move(info), std::move(context), options.face_px);
+    }
+    if (options.kind != BackendKind::Auto || options.gpu >= 0) {
+        throw GlError(fmt::format("backend {} cannot be used: {} (see zskel doctor)", name_of(options.kind),
+                                  reasons(info.failed)));
+    }
+    log_warning("no GL context ({}): rays are traced instead", reasons(info.failed));
+    info.is_fallback = true;
+    return open_rays(options, std::move(info));
+}
+
+std::unique_ptr<gl::Context> open_picture_context(int gpu) {
+    gl::ContextRequest request;
+    request.gpu = gpu;
+    std::vector<gl::FailedAttempt> failed;
+    std::unique_ptr<gl::Context> context = gl::open_context(request, failed);
+    if (context == nullptr) {
+        throw GlError(fmt::format("a picture needs a GL context: {} (see zskel doctor)", reasons(failed)));
+    }
+    return context;
+}
+
+}  // namespace zskel

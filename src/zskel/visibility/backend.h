@@ -1,0 +1,64 @@
+#pragma once
+
+#include <memory>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "zskel/gl/context.h"
+#include "zskel/visibility/visibility_source.h"
+
+namespace zskel {
+
+/// Where visibility comes from.
+enum class BackendKind {
+    Auto,    ///< the first GL context that works; rays, with a warning, when none does
+    Gl,      ///< the first GL context that works
+    Egl,     ///< the same, without OSMesa
+    Osmesa,
+    Ray,     ///< Embree
+    Brute,   ///< every ray against every triangle, as the paper did: for comparison only
+};
+/// @throws UsageError for an unknown name.
+BackendKind parse_backend(std::string_view name);
+std::string_view name_of(BackendKind kind);
+
+struct BackendOptions {
+    BackendKind kind = BackendKind::Auto;
+    int gpu = -1;         ///< number of the hardware device to take; -1: any
+    int face_px = 16;     ///< texels along a cube face
+    int rays = 0;         ///< ray backends only: directions an eye, spread radially; 0: the cube's texels
+};
+
+/// What answers, and why others did not.
+struct BackendInfo {
+    std::string name;                         ///< egl-hardware, egl-software, egl-surfaceless, osmesa, ray, brute
+    std::string vendor;
+    std::string renderer;
+    std::string version;
+    std::vector<gl::FailedAttempt> failed;    ///< candidates tried before it
+    bool is_fallback = false;                 ///< `auto` found no GL context and took rays
+};
+
+/// An opened backend: prepares one source a solid. Sources must not outlive it.
+class Backend {
+  public:
+    virtual ~Backend() = default;
+    virtual std::unique_ptr<VisibilitySource> prepare(const Surface& solid) = 0;
+    const BackendInfo& info() const { return info_; }
+
+  protected:
+    explicit Backend(BackendInfo info) : info_(std::move(info)) {}
+
+  private:
+    BackendInfo info_;
+};
+
+/// @throws GlError when the backend asked for cannot be had (one named never falls back), with every
+///         candidate's reason; UsageError for options that make no sense together.
+std::unique_ptr<Backend> open_backend(const BackendOptions& options);
+
+/// A context for pictures: any that works. @throws GlError when there is none, with every reason.
+std::unique_ptr<gl::Context> open_picture_context(int gpu = -1);
+
+}  // namespace zskel
