@@ -273,6 +273,14 @@ std::string_view name_of(ContextKind kind) {
     return "";
 }
 
+void Context::release(std::string_view stage, const std::function<void(const Api&)>& work) noexcept {
+    try {
+        run(stage, work);
+    } catch (const std::exception& error) {
+        log_warning("{}", error.what());
+    }
+}
+
 std::unique_ptr<Context> open_context(const ContextRequest& request, std::vector<FailedAttempt>& failed) {
     for (const Candidate& candidate : list_candidates(request, failed)) {
         try {

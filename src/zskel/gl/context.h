@@ -52,6 +52,9 @@ class Context {
     virtual void run(std::string_view stage, const std::function<void(const Api&)>& work) = 0;
 
     virtual const ContextInfo& info() const = 0;
+
+    /// `run` for destructors: what goes wrong is logged.
+    void release(std::string_view stage, const std::function<void(const Api&)>& work) noexcept;
 };
 
 /// The first candidate of the request that draws a known triangle into a layered 32F depth target

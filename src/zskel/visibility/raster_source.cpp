@@ -33,7 +33,7 @@ class RasterPipeline {
     }
 
     ~RasterPipeline() {
-        context_.run("releasing the raster pipeline", [&](const gl::Api& gl) {
+        context_.release("releasing the raster pipeline", [&](const gl::Api& gl) {
             if (target_) target_->destroy(gl);
             gl.DeleteBuffers(1, &eyes_);
             gl.DeleteProgram(program_);
@@ -118,7 +118,7 @@ class RasterSource : public VisibilitySource {
     }
 
     ~RasterSource() override {
-        pipeline_.context().run("releasing the raster source", [&](const gl::Api& gl) {
+        pipeline_.context().release("releasing the raster source", [&](const gl::Api& gl) {
             gl.DeleteVertexArrays(1, &vertex_array_);
             const GLuint buffers[] = {vertices_, indices_};
             gl.DeleteBuffers(2, buffers);

@@ -1,0 +1,84 @@
+#pragma once
+
+#include <functional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "zskel/core/error.h"
+#include "zskel/mesh/mesh.h"
+#include "zskel/mesh/surface.h"
+#include "zskel/skeleton/cluster.h"
+#include "zskel/skeleton/graph.h"
+#include "zskel/skeleton/seeds.h"
+#include "zskel/skeleton/settle.h"
+#include "zskel/visibility/backend.h"
+
+namespace zskel {
+
+/// How seeds find the skeleton.
+enum class Method {
+    Paper,  ///< steps of one length along the force, as published
+};
+Method parse_method(std::string_view name);
+std::string_view name_of(Method method);
+
+struct ExtractOptions {
+    Method method = Method::Paper;
+    SeedOptions seeds;
+    PaperStepOptions steps;
+    ClusterOptions clusters;
+    /// Told the stage and its share done; false stops the work (`Cancelled` is thrown). May be empty.
+    std::function<bool(std::string_view stage, double share)> progress;
+};
+
+/// Thrown when the progress callback says stop.
+class Cancelled : public Error {
+  public:
+    Cancelled() : Error(ExitCode::Internal, "stopped by the caller") {}
+};
+
+/// One seed's story, in model space.
+struct SeedReport {
+    std::uint32_t vertex = 0;            ///< an input vertex at the seed's place (the first of those welded there)
+    std::uint32_t node = 0;
+    DVec3 start{0.0};
+    DVec3 end{0.0};
+    SeedState state = SeedState::Converged;
+    std::uint32_t steps = 0;
+    std::uint32_t evaluations = 0;
+    std::vector<DVec3> path;             ///< start to end; empty unless paths are kept
+};
+
+struct StageTime {
+    std::string stage;
+    double seconds = 0.0;
+};
+
+struct ExtractStatistics {
+    std::size_t faces = 0;               ///< triangles used
+    std::size_t vertices = 0;            ///< places used
+    std::size_t solids = 0;
+    std::size_t cavities = 0;
+    std::size_t seeds = 0;
+    std::size_t evaluations = 0;
+    std::size_t forest_edges = 0;        ///< edges that are left when every cycle is opened at its longest
+    std::vector<StageTime> stages;
+    double seconds() const;
+};
+
+struct ExtractResult {
+    SkeletonGraph graph;
+    std::vector<SeedReport> seeds;
+    ExtractStatistics statistics;
+    std::vector<Repair> repairs;
+    std::vector<std::string> warnings;
+    Similarity world_from_model;
+};
+
+/// The whole pipeline: mesh -> surface -> solids -> seeds -> settled seeds -> clusters -> graph.
+/// Same mesh, options and backend give the same graph, at any number of threads.
+/// @throws InputError for a mesh without area, GlError when the backend fails, Cancelled.
+ExtractResult extract_skeleton(const Mesh& mesh, const ExtractOptions& options, Backend& backend);
+
+}  // namespace zskel

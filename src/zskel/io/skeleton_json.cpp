@@ -1,0 +1,147 @@
+#include "zskel/io/skeleton_json.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include <nlohmann/json.hpp>
+
+namespace zskel {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+Json point(const DVec3& p) { return Json::array({p.x, p.y, p.z}); }
+
+Json nodes_json(const SkeletonGraph& graph) {
+    Json nodes = Json::array();
+    for (std::size_t i = 0; i < graph.nodes.size(); ++i) {
+        const SkeletonGraph::Node& node = graph.nodes[i];
+        nodes.push_back({{"id", i}, {"position", point(node.position)}, {"radius", node.radius}, {"solid", node.solid}});
+    }
+    return nodes;
+}
+
+Json edges_json(const SkeletonGraph& graph) {
+    Json edges = Json::array();
+    for (const SkeletonGraph::Edge& edge : graph.edges) {
+        edges.push_back({{"source", edge.source}, {"target", edge.target}});
+    }
+    return edges;
+}
+
+// -1 where a vertex has no face and so no node.
+Json vertex_node_json(const SkeletonGraph& graph) {
+    Json list = Json::array();
+    for (const std::uint32_t node : graph.vertex_node) {
+        list.push_back(node == kNone ? std::int64_t{-1} : static_cast<std::int64_t>(node));
+    }
+    return list;
+}
+
+Json statistics_json(const ExtractResult& result) {
+    const ExtractStatistics& s = result.statistics;
+    const GraphTopology topology = graph_topology(result.graph);
+    Json states;
+    for (const SeedState state :
+         {SeedState::Converged, SeedState::StepLimit, SeedState::LeftMesh, SeedState::NoHits}) {
+        const auto count = std::count_if(result.seeds.begin(), result.seeds.end(),
+                                         [&](const SeedReport& seed) { return seed.state == state; });
+        states[std::string(name_of(state))] = count;
+    }
+    Json seconds;
+    for (const StageTime& stage : s.stages) seconds[stage.stage] = stage.seconds;
+    seconds["total"] = s.seconds();
+    return {{"faces", s.faces},
+            {"vertices", s.vertices},
+            {"solids", s.solids},
+            {"cavities", s.cavities},
+            {"nodes", result.graph.nodes.size()},
+            {"edges", result.graph.edges.size()},
+            {"edges_without_cycles", s.forest_edges},
+            {"components", topology.components},
+            {"cycles", topology.cycles},
+            {"seeds", s.seeds},
+            {"seed_states", states},
+            {"evaluations", s.evaluations},
+            {"seconds", seconds}};
+}
+
+Json options_json(const Provenance& provenance) {
+    const ExtractOptions& o = provenance.options;
+    return {{"method", name_of(o.method)},
+            {"backend", name_of(provenance.backend_options.kind)},
+            {"gpu", provenance.backend_options.gpu},
+            {"face_px", provenance.backend_options.face_px},
+            {"rays", provenance.backend_options.rays},
+            {"offset_world", o.seeds.offset_world},
+            {"max_offset_thickness", o.seeds.max_offset_thickness},
+            {"step_world", o.steps.step_world},
+            {"max_steps", o.steps.max_steps},
+            {"cluster_range_world", o.clusters.range_world}};
+}
+
+Json provenance_json(const Provenance& provenance, const Similarity& world) {
+    Json failed = Json::array();
+    for (const gl::FailedAttempt& attempt : provenance.backend.failed) {
+        failed.push_back({{"candidate", attempt.candidate}, {"reason", attempt.reason}});
+    }
+    return {{"program", "zskel"},
+            {"program_version", ZSKEL_VERSION},
+            {"command", provenance.command},
+            {"model", provenance.model},
+            {"model_xxh3", fmt::format("{:016x}", provenance.model_hash)},
+            {"options", options_json(provenance)},
+            {"backend",
+             {{"name", provenance.backend.name},
+              {"vendor", provenance.backend.vendor},
+              {"renderer", provenance.backend.renderer},
+              {"version", provenance.backend.version},
+              {"is_fallback", provenance.backend.is_fallback},
+              {"failed", failed}}},
+            {"world_from_model", {{"center", point(world.center)}, {"scale", world.scale}}}};
+}
+
+Json seeds_json(const ExtractResult& result, const JsonParts& parts) {
+    Json seeds = Json::array();
+    for (const SeedReport& seed : result.seeds) {
+        Json entry{{"vertex", seed.vertex},     {"node", seed.node},
+                   {"start", point(seed.start)}, {"end", point(seed.end)},
+                   {"state", name_of(seed.state)}, {"steps", seed.steps},
+                   {"evaluations", seed.evaluations}};
+        if (parts.paths) {
+            Json path = Json::array();
+            for (const DVec3& p : seed.path) path.push_back(point(p));
+            entry["path"] = std::move(path);
+        }
+        seeds.push_back(std::move(entry));
+    }
+    return seeds;
+}
+
+}  // namespace
+
+std::string skeleton_json(const ExtractResult& result, const Provenance& provenance, const JsonParts& parts) {
+    Json out{{"format", "zskel-skeleton"}, {"version", 1}};
+    out["nodes"] = nodes_json(result.graph);
+    out["edges"] = edges_json(result.graph);
+    out["vertex_node"] = vertex_node_json(result.graph);
+    out["statistics"] = statistics_json(result);
+    out["warnings"] = result.warnings;
+    out["provenance"] = provenance_json(provenance, result.world_from_model);
+    if (parts.seeds || parts.paths) out["seeds"] = seeds_json(result, parts);
+    return out.dump(1, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+std::string skeleton_obj(const SkeletonGraph& graph) {
+    std::string text = "# zskel curve skeleton: v = node, l = edge\n";
+    for (const SkeletonGraph::Node& node : graph.nodes) {
+        text += fmt::format("v {} {} {}\n", node.position.x, node.position.y, node.position.z);
+    }
+    for (const SkeletonGraph::Edge& edge : graph.edges) {
+        text += fmt::format("l {} {}\n", edge.source + 1, edge.target + 1);
+    }
+    return text;
+}
+
+}  // namespace zskel
