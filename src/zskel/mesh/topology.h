@@ -27,16 +27,22 @@ struct TopologyComponent {
 /// so edges with more, edges without a common orientation and vertices where fans touch are cut
 /// open first: a vertex then has several copies.
 struct Topology {
-    std::vector<TopologyComponent> components;         ///< in the order of their first triangle
-    std::vector<std::uint32_t> component_of_triangle;  ///< kNone when a corner repeats: left out
-    std::vector<bool>
-        is_turned;  ///< per triangle: winds against most of those it hangs together with
+    /// In the order of their first triangle.
+    std::vector<TopologyComponent> components;
+    /// Of every triangle; kNone when a corner repeats: those are left out.
+    std::vector<std::uint32_t> component_of_triangle;
+    /// Of every triangle: winds against most of those that it hangs together with.
+    std::vector<bool> is_turned;
+    // Edges, lower vertex first, sorted.
+    std::vector<glm::uvec2> boundary_edges;      ///< one triangle
     std::vector<glm::uvec2> non_manifold_edges;  ///< three triangles or more
     std::vector<glm::uvec2> inconsistent_edges;  ///< two triangles that run along it the same way
-    std::vector<std::uint32_t> non_manifold_vertices;        ///< where fans touch; sorted
-    std::vector<std::vector<std::uint32_t>> boundary_loops;  ///< vertices in the given numbers
-    std::vector<std::uint32_t>
-        vertex_of_copy;  ///< of each vertex of the half-edge mesh: the given one
+    /// Where several fans of triangles meet; sorted.
+    std::vector<std::uint32_t> non_manifold_vertices;
+    /// Vertices round each opening, in the given numbers.
+    std::vector<std::vector<std::uint32_t>> boundary_loops;
+    /// Of each vertex of the half-edge mesh: the given one.
+    std::vector<std::uint32_t> vertex_of_copy;
 };
 
 /// Finds out how triangles hang together; equal positions under two numbers are two vertices.
