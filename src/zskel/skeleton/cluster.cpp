@@ -71,6 +71,8 @@ class Merger {
                 const std::uint32_t living = survivor(n);
                 if (living != a && living != b) merged.neighbours.push_back(living);
             }
+        }
+        for (const std::uint32_t part : {a, b}) {
             clusters_[part].merged_into = name;
             clusters_[part].neighbours = {};
         }

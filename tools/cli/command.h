@@ -1,0 +1,34 @@
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <memory>
+#include <string>
+
+#include "zskel/core/error.h"
+#include "zskel/visibility/backend.h"
+
+namespace zskel::cli {
+
+/// What every subcommand can read: the options before it.
+struct Common {
+    int verbosity = 0;            ///< -q: -1; -v: 1; -vv: 2
+    std::string log_format = "text";
+    int threads = 0;
+    std::string command;          ///< the whole line as typed
+};
+
+/// Each adds its subcommand to the program; when that is chosen, `run` is set to what it does.
+using Run = std::function<ExitCode()>;
+void add_check_command(CLI::App& app, const Common& common, Run& run);
+void add_compare_command(CLI::App& app, const Common& common, Run& run);
+void add_depth_command(CLI::App& app, const Common& common, Run& run);
+void add_doctor_command(CLI::App& app, const Common& common, Run& run);
+void add_extract_command(CLI::App& app, const Common& common, Run& run);
+
+/// Adds --backend, --gpu, --face-px and --rays to a subcommand.
+void add_backend_options(CLI::App& command, BackendOptions& options);
+
+/// Prints text to standard output. @throws IoError when that is closed or full.
+void print(const std::string& text);
+
+}  // namespace zskel::cli
