@@ -264,8 +264,8 @@ class PlyBody {
         const std::int64_t size = values_.whole(*property.list_size_type, property.label);
         const std::size_t most = values_.remaining() / Values::least_bytes(property.type);
         if (size < 0 || static_cast<std::uint64_t>(size) > most) {
-            values_.fail(fmt::format("{} has a length of {}; the {} bytes left hold 0 to {}",
-                                     property.label, size, values_.remaining(), most));
+            values_.fail(fmt::format("{} has a length of {}; the rest of the file holds 0 to {}",
+                                     property.label, size, most));
         }
         return static_cast<std::size_t>(size);
     }

@@ -53,8 +53,10 @@ bool TextCursor::skip_joint() {
 }
 
 void TextCursor::next_line() {
+    const bool is_comment = rules_.hash_comments && at_ != end_ && *at_ == '#';
+    const bool joins = rules_.joined_lines && !is_comment;
     while (at_ != end_ && !is_line_end(*at_)) {
-        if (rules_.joined_lines) skip_joint();
+        if (joins) skip_joint();
         ++at_;
     }
     if (at_ == end_) return;

@@ -13,7 +13,7 @@ std::string quoted(std::string_view seen);
 /// What a text format allows besides blanks and line ends.
 struct TextRules {
     bool hash_comments = false;  ///< a word that begins with '#' ends the line
-    bool joined_lines = false;   ///< a backslash at the end of a line continues it
+    bool joined_lines = false;   ///< a backslash at the end of a line (of no comment) continues it
 };
 
 /// Walks over a text word by word, knows the line, and never reads past the end.
