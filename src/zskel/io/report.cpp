@@ -58,21 +58,25 @@ std::string text_of(const std::optional<T>& value) {
     return value ? fmt::format("{:.6}", static_cast<double>(*value)) : "none";
 }
 
+std::string counted(std::size_t count, std::string_view one, std::string_view many) {
+    return fmt::format("{} {}", count, count == 1 ? one : many);
+}
+
 std::string component_text(std::size_t number, const ComponentReport& c) {
-    return fmt::format("  {:>3}  {} triangles, {}, {}, {}, genus {}, volume {}, {}\n", number,
-                       c.triangles,
-                       c.is_closed ? "closed" : fmt::format("{} boundary loops", c.boundary_loops),
-                       c.is_manifold ? "manifold" : "not manifold",
-                       c.is_oriented     ? "oriented"
-                       : c.is_orientable ? "not oriented"
-                                         : "not orientable",
-                       text_of(c.genus), text_of(c.volume), box_text(c.box));
+    return fmt::format(
+        "  {:>3}  {} triangles, {}, {}, {}, genus {}, volume {}, {}\n", number, c.triangles,
+        c.is_closed ? "closed" : counted(c.boundary_loops, "boundary loop", "boundary loops"),
+        c.is_manifold ? "manifold" : "not manifold",
+        c.is_oriented     ? "oriented"
+        : c.is_orientable ? "not oriented"
+                          : "not orientable",
+        text_of(c.genus), text_of(c.volume), box_text(c.box));
 }
 
 std::string defect_text(const Defect& defect) {
     std::string name = defect.name;
     std::replace(name.begin(), name.end(), '_', ' ');
-    return fmt::format("  {} {} (first: {}): {}\n", defect.count, name, defect.example,
+    return fmt::format("  {}: {}, first {}; {}\n", name, defect.count, defect.example,
                        defect.action);
 }
 
@@ -105,9 +109,10 @@ std::string to_json(const MeshReport& report) {
 }
 
 std::string to_text(const MeshReport& report) {
-    std::string text =
-        fmt::format("{}: {} vertices, {} faces, {} triangles, {} components\n", report.name,
-                    report.vertices, report.faces, report.triangles, report.components.size());
+    std::string text = fmt::format(
+        "{}: {}, {}, {}, {}\n", report.name, counted(report.vertices, "vertex", "vertices"),
+        counted(report.faces, "face", "faces"), counted(report.triangles, "triangle", "triangles"),
+        counted(report.components.size(), "component", "components"));
     text += fmt::format("  box {}, volume {}, genus {}\n", box_text(report.box),
                         text_of(report.volume), text_of(report.genus));
     const std::size_t shown = std::min(report.components.size(), kComponentsShown);
@@ -115,8 +120,9 @@ std::string to_text(const MeshReport& report) {
     if (shown < report.components.size()) {
         text += fmt::format("       and {} more components\n", report.components.size() - shown);
     }
-    for (const std::string& warning : report.warnings)
+    for (const std::string& warning : report.warnings) {
         text += fmt::format("  reading: {}\n", warning);
+    }
     for (const Defect& defect : report.defects) text += defect_text(defect);
     if (report.defects.empty()) text += "  nothing to repair\n";
     return text;
