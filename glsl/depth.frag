@@ -1,6 +1,6 @@
 #version 450 core
 
-// The triangle that a texel sees: the visible set V(x) of the paper.
+// Which of the draw's triangles a texel sees.
 layout(location = 0) out uint id;
 
 void main() { id = uint(gl_PrimitiveID); }

@@ -8,7 +8,7 @@
 
 namespace zskel {
 
-EmbreeScene::EmbreeScene(const Surface& surface) : device_(rtcNewDevice("threads=1")) {
+EmbreeScene::EmbreeScene(const Surface& surface) : device_(rtcNewDevice(nullptr)) {
     if (device_ == nullptr) {
         throw Error(ExitCode::Backend,
                     fmt::format("Embree gives no device (error {})", static_cast<int>(rtcGetDeviceError(nullptr))));

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <array>
+#include <numeric>
 #include <optional>
 #include <string>
 #include <utility>
@@ -15,10 +16,65 @@
 #include "zskel/gl/depth_target.h"
 #include "zskel/gl/program.h"
 #include "zskel/visibility/cube_map.h"
+#include "zskel/visibility/face_lists.h"
 
 namespace zskel {
 
 constexpr int kFaces = 6;
+
+// As the driver reads it: glMultiDrawElementsIndirect.
+struct DrawCommand {
+    GLuint count = 0;
+    GLuint instances = 1;
+    GLuint first_index = 0;
+    GLint base_vertex = 0;
+    GLuint base_instance = 0;  // the layer
+};
+
+// What one pass draws: for every face of every eye one command over its own stretch of indices.
+struct DrawList {
+    std::vector<DrawCommand> commands;
+    std::vector<Triangle> corners;           // the index buffer
+    std::vector<std::uint32_t> triangles;    // the number of each of `corners`
+    std::vector<FaceLists> eyes;             // scratch
+
+    void build(const Surface& surface, std::span<const Vec3> positions) {
+        if (eyes.size() < positions.size()) eyes.resize(positions.size());
+        parallel_for(positions.size(), 4, [&](std::size_t begin, std::size_t end) {
+            for (std::size_t e = begin; e < end; ++e) list_faces(surface, positions[e], eyes[e]);
+        });
+        commands.clear();
+        triangles.clear();
+        for (std::size_t e = 0; e < positions.size(); ++e) {
+            for (const std::vector<std::uint32_t>& list : eyes[e].triangles) {
+                commands.push_back({static_cast<GLuint>(list.size() * 3), 1,
+                                    static_cast<GLuint>(triangles.size() * 3), 0,
+                                    static_cast<GLuint>(commands.size())});
+                triangles.insert(triangles.end(), list.begin(), list.end());
+            }
+        }
+        corners.resize(triangles.size());
+        parallel_for(triangles.size(), 4096, [&](std::size_t begin, std::size_t end) {
+            for (std::size_t i = begin; i < end; ++i) corners[i] = surface.triangles[triangles[i]];
+        });
+    }
+};
+
+// A GL buffer that grows to the largest content it has held.
+struct StreamBuffer {
+    GLuint name = 0;
+    GLsizeiptr capacity = 0;
+
+    void fill(const gl::Api& gl, const void* data, std::size_t bytes) {
+        const auto wanted = static_cast<GLsizeiptr>(bytes);
+        if (wanted > capacity) {
+            gl.DeleteBuffers(1, &name);
+            capacity = wanted + wanted / 2;
+            name = gl::make_buffer(gl, nullptr, capacity, GL_DYNAMIC_STORAGE_BIT);
+        }
+        if (wanted > 0) gl.NamedBufferSubData(name, 0, wanted, data);
+    }
+};
 
 class RasterPipeline {
   public:
@@ -35,7 +91,8 @@ class RasterPipeline {
     ~RasterPipeline() {
         context_.release("releasing the raster pipeline", [&](const gl::Api& gl) {
             if (target_) target_->destroy(gl);
-            gl.DeleteBuffers(1, &eyes_);
+            for (const StreamBuffer* buffer : {&eyes_, &indices_, &commands_}) gl.DeleteBuffers(1, &buffer->name);
+            gl.DeleteBuffers(1, &layers_);
             gl.DeleteProgram(program_);
         });
     }
@@ -44,50 +101,37 @@ class RasterPipeline {
 
     gl::Context& context() { return context_; }
     const Directions& directions() const { return directions_; }
+    GLuint layer_numbers() const { return layers_; }
 
-    // Eyes a pass: what the layers allow, and no more than 64 MB of texels.
-    std::size_t max_batch() const {
+    // Eyes a pass: what the layers allow, no more than 64 MB of texels, and some 100 MB of indices.
+    std::size_t max_batch(std::size_t triangles) const {
         const std::size_t by_layers = static_cast<std::size_t>(context_.info().max_layers) / kFaces;
-        const std::size_t by_memory = (std::size_t{1} << 23) / directions_.size();
-        return std::clamp<std::size_t>(by_memory, 1, std::min<std::size_t>(by_layers, 256));
+        const std::size_t by_texels = (std::size_t{1} << 23) / directions_.size();
+        const std::size_t by_indices = (std::size_t{1} << 22) / triangles;
+        return std::max<std::size_t>(1, std::min({by_layers, by_texels, by_indices, std::size_t{256}}));
     }
 
-    // One pass: `elements` indices of the bound solid for every face of every eye. Leaves near/z in `depth`.
-    void draw(const gl::Api& gl, GLuint vertex_array, std::size_t elements, std::span<const Vec3> eyes,
-              std::span<float> depth, std::span<std::uint32_t> id) {
-        const int layers = static_cast<int>(eyes.size()) * kFaces;
-        if (!target_ || target_->layers() < layers) {
-            if (target_) target_->destroy(gl);
-            target_.emplace(gl, face_px_, layers);
-        }
-        std::vector<glm::vec4> padded;
-        padded.reserve(eyes.size());
-        for (const Vec3& eye : eyes) padded.emplace_back(eye, 0.0f);
-        gl.NamedBufferSubData(eyes_, 0, static_cast<GLsizeiptr>(padded.size() * sizeof(glm::vec4)),
-                              padded.data());
-        gl::set_reversed_depth(gl);
-        target_->begin(gl);
-        gl.UseProgram(program_);
-        gl.BindVertexArray(vertex_array);
-        gl.BindBufferBase(GL_SHADER_STORAGE_BUFFER, 0, eyes_);
-        gl.DrawElementsInstanced(GL_TRIANGLES, static_cast<GLsizei>(elements), GL_UNSIGNED_INT, nullptr,
-                                 layers);
-        target_->read(gl, layers, depth, id);
-    }
-
-    // In place: near/z becomes a distance; what was never drawn has depth 0 and becomes +inf.
-    void to_radial(std::span<float> texels) const {
-        for (std::size_t i = 0; i < texels.size(); ++i) {
-            texels[i] = texels[i] > 0.0f ? axial_to_radial_[i] / texels[i] : kInfinity;
-        }
+    // Draws every face of every eye and reads distances and triangle numbers back.
+    void render(const Surface& surface, GLuint vertex_array, std::span<const Vec3> eyes, std::span<float> distance,
+                std::span<std::uint32_t> id) {
+        list_.build(surface, eyes);
+        context_.run("rendering cube maps",
+                     [&](const gl::Api& gl) { draw(gl, vertex_array, eyes, distance, id); });
+        const std::size_t texels = directions_.size();
+        parallel_for(eyes.size(), 8, [&](std::size_t begin, std::size_t end) {
+            for (std::size_t e = begin; e < end; ++e) {
+                resolve(e, distance.subspan(e * texels, texels), id.subspan(e * texels, texels));
+            }
+        });
     }
 
   private:
     void prepare(const gl::Api& gl) {
         program_ = gl::build_program(gl, {{GL_VERTEX_SHADER, "depth.vert", glsl::kDepthVert},
                                           {GL_FRAGMENT_SHADER, "depth.frag", glsl::kDepthFrag}});
-        eyes_ = gl::make_buffer(gl, nullptr, static_cast<GLsizeiptr>(max_batch() * sizeof(glm::vec4)),
-                                GL_DYNAMIC_STORAGE_BIT);
+        std::vector<GLuint> numbers(static_cast<std::size_t>(context_.info().max_layers));
+        std::iota(numbers.begin(), numbers.end(), 0u);
+        layers_ = gl::make_buffer(gl, numbers.data(), static_cast<GLsizeiptr>(numbers.size() * sizeof(GLuint)));
         gl.UseProgram(program_);
         gl.Uniform1f(gl::uniform(gl, program_, "near_plane"), kNearPlane);
         std::array<glm::mat3, kFaces> face_from_world{};
@@ -99,13 +143,56 @@ class RasterPipeline {
                             &face_from_world[0][0][0]);
     }
 
+    void draw(const gl::Api& gl, GLuint vertex_array, std::span<const Vec3> eyes, std::span<float> depth,
+              std::span<std::uint32_t> id) {
+        const int layers = static_cast<int>(eyes.size()) * kFaces;
+        if (!target_ || target_->layers() < layers) {
+            if (target_) target_->destroy(gl);
+            target_.emplace(gl, face_px_, layers);
+        }
+        padded_eyes_.clear();
+        for (const Vec3& eye : eyes) padded_eyes_.emplace_back(eye, 0.0f);
+        eyes_.fill(gl, padded_eyes_.data(), padded_eyes_.size() * sizeof(glm::vec4));
+        indices_.fill(gl, list_.corners.data(), list_.corners.size() * sizeof(Triangle));
+        commands_.fill(gl, list_.commands.data(), list_.commands.size() * sizeof(DrawCommand));
+        gl::set_reversed_depth(gl);
+        target_->begin(gl);
+        gl.UseProgram(program_);
+        gl.VertexArrayElementBuffer(vertex_array, indices_.name);
+        gl.BindVertexArray(vertex_array);
+        gl.BindBufferBase(GL_SHADER_STORAGE_BUFFER, 0, eyes_.name);
+        gl.BindBuffer(GL_DRAW_INDIRECT_BUFFER, commands_.name);
+        gl.MultiDrawElementsIndirect(GL_TRIANGLES, GL_UNSIGNED_INT, nullptr, layers, 0);
+        target_->read(gl, layers, depth, id);
+    }
+
+    // In place: near/z becomes a distance, and a triangle's number in its draw its number in the solid.
+    void resolve(std::size_t eye, std::span<float> texels, std::span<std::uint32_t> ids) const {
+        const std::size_t per_face = texels.size() / kFaces;
+        for (std::size_t i = 0; i < texels.size(); ++i) {
+            if (texels[i] > 0.0f) {
+                const DrawCommand& command = list_.commands[eye * kFaces + i / per_face];
+                texels[i] = axial_to_radial_[i] / texels[i];
+                ids[i] = list_.triangles[command.first_index / 3 + ids[i]];
+            } else {
+                texels[i] = kInfinity;
+                ids[i] = kNone;
+            }
+        }
+    }
+
     gl::Context& context_;
     int face_px_;
     Directions directions_;
     std::vector<float> axial_to_radial_;  // |d| times the near plane
+    DrawList list_;
+    std::vector<glm::vec4> padded_eyes_;
     std::optional<gl::DepthTarget> target_;
     GLuint program_ = 0;
-    GLuint eyes_ = 0;
+    GLuint layers_ = 0;
+    StreamBuffer eyes_;
+    StreamBuffer indices_;
+    StreamBuffer commands_;
 };
 
 namespace {
@@ -120,49 +207,41 @@ class RasterSource : public VisibilitySource {
     ~RasterSource() override {
         pipeline_.context().release("releasing the raster source", [&](const gl::Api& gl) {
             gl.DeleteVertexArrays(1, &vertex_array_);
-            const GLuint buffers[] = {vertices_, indices_};
-            gl.DeleteBuffers(2, buffers);
+            gl.DeleteBuffers(1, &vertices_);
         });
     }
 
     void render(std::span<const Vec3> eyes, MapBatch& maps) override {
         const std::size_t texels = directions().size();
         maps.resize(eyes.size(), texels);
-        const std::size_t batch = pipeline_.max_batch();
+        const std::size_t batch = pipeline_.max_batch(solid().triangles.size());
         for (std::size_t first = 0; first < eyes.size(); first += batch) {
             const std::size_t count = std::min(batch, eyes.size() - first);
-            pipeline_.context().run("rendering cube maps", [&](const gl::Api& gl) {
-                pipeline_.draw(gl, vertex_array_, solid().triangles.size() * 3, eyes.subspan(first, count),
-                               std::span(maps.distance).subspan(first * texels, count * texels),
-                               std::span(maps.id).subspan(first * texels, count * texels));
-            });
+            pipeline_.render(solid(), vertex_array_, eyes.subspan(first, count),
+                             std::span(maps.distance).subspan(first * texels, count * texels),
+                             std::span(maps.id).subspan(first * texels, count * texels));
         }
-        parallel_for(eyes.size(), 8, [&](std::size_t begin, std::size_t end) {
-            for (std::size_t i = begin; i < end; ++i) {
-                pipeline_.to_radial(std::span(maps.distance).subspan(i * texels, texels));
-            }
-        });
     }
 
   private:
     void upload(const gl::Api& gl) {
-        const Surface& surface = solid();
-        vertices_ = gl::make_buffer(gl, surface.positions.data(),
-                                    static_cast<GLsizeiptr>(surface.positions.size() * sizeof(Vec3)));
-        indices_ = gl::make_buffer(gl, surface.triangles.data(),
-                                   static_cast<GLsizeiptr>(surface.triangles.size() * sizeof(Triangle)));
+        vertices_ = gl::make_buffer(gl, solid().positions.data(),
+                                    static_cast<GLsizeiptr>(solid().positions.size() * sizeof(Vec3)));
         gl.CreateVertexArrays(1, &vertex_array_);
         gl.VertexArrayVertexBuffer(vertex_array_, 0, vertices_, 0, sizeof(Vec3));
         gl.VertexArrayAttribFormat(vertex_array_, 0, 3, GL_FLOAT, GL_FALSE, 0);
         gl.VertexArrayAttribBinding(vertex_array_, 0, 0);
         gl.EnableVertexArrayAttrib(vertex_array_, 0);
-        gl.VertexArrayElementBuffer(vertex_array_, indices_);
+        gl.VertexArrayVertexBuffer(vertex_array_, 1, pipeline_.layer_numbers(), 0, sizeof(GLuint));
+        gl.VertexArrayAttribIFormat(vertex_array_, 1, 1, GL_UNSIGNED_INT, 0);
+        gl.VertexArrayAttribBinding(vertex_array_, 1, 1);
+        gl.VertexArrayBindingDivisor(vertex_array_, 1, 1);
+        gl.EnableVertexArrayAttrib(vertex_array_, 1);
     }
 
     RasterPipeline& pipeline_;
     GLuint vertex_array_ = 0;
     GLuint vertices_ = 0;
-    GLuint indices_ = 0;
 };
 
 }  // namespace
