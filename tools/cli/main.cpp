@@ -1,4 +1,5 @@
 // The command-line program: reads the line, sets up the log, runs one subcommand, maps errors to exit codes.
+#include <malloc.h>
 #include <unistd.h>
 
 #include <csignal>
@@ -59,6 +60,7 @@ int run_program(int argc, char** argv) {
 
 
 
+    add_compare_command(app, common, run);
     add_doctor_command(app, common, run);
     try {
         app.parse(argc, argv);
@@ -79,6 +81,9 @@ int run_program(int argc, char** argv) {
 }  // namespace zskel::cli
 
 int main(int argc, char** argv) {
+    // Software GL drivers map and unmap their buffers at every draw unless the heap keeps them.
+    ::mallopt(M_MMAP_THRESHOLD, 1 << 30);
+    ::mallopt(M_TRIM_THRESHOLD, 1 << 30);
     std::signal(SIGINT, zskel::cli::stop_cleanly);
     std::signal(SIGTERM, zskel::cli::stop_cleanly);
     std::signal(SIGPIPE, SIG_IGN);  // a closed pipe is then an error of the write, with its exit code

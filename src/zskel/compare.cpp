@@ -1,0 +1,190 @@
+#include "zskel/compare.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+
+#include "zskel/mesh/solid.h"
+#include "zskel/visibility/cube_map.h"
+#include "zskel/visibility/surface_query.h"
+
+namespace zskel {
+namespace {
+
+constexpr double kForceMeansSomething = 0.05;  // of the mean of 1/r; below, its direction is noise
+
+// The four neighbours of every texel, over the cube's edges too.
+std::vector<std::array<std::uint32_t, 4>> texel_neighbours(int face_px) {
+    const std::size_t count = 6 * static_cast<std::size_t>(face_px) * static_cast<std::size_t>(face_px);
+    std::vector<std::array<std::uint32_t, 4>> out(count);
+    for (std::size_t i = 0; i < count; ++i) {
+        const Texel texel = texel_at(i, face_px);
+        const CubeFace& face = cube_faces()[static_cast<std::size_t>(texel.face)];
+        const DVec3 center = texel_direction(texel, face_px);
+        const double pitch = 2.0 / face_px;
+        const DVec3 right = DVec3(face.right) * pitch;
+        const DVec3 up = DVec3(face.up) * pitch;
+        const std::array<DVec3, 4> around{center + right, center - right, center + up, center - up};
+        for (std::size_t k = 0; k < 4; ++k) {
+            const Texel next = texel_of_direction(around[k], face_px);
+            out[i][k] = static_cast<std::uint32_t>(texel_index(next, face_px));
+        }
+    }
+    return out;
+}
+
+double quantile(std::vector<double>& values, double share) {
+    if (values.empty()) return 0.0;
+    const auto rank = static_cast<std::size_t>(std::ceil(share * static_cast<double>(values.size()))) - 1;
+    const auto at = values.begin() + static_cast<std::ptrdiff_t>(std::min(rank, values.size() - 1));
+    std::nth_element(values.begin(), at, values.end());
+    return *at;
+}
+
+Difference difference_of(std::vector<double>& values) {
+    return {quantile(values, 0.5), quantile(values, 0.999), quantile(values, 1.0), values.size()};
+}
+
+// Gathers differences over any number of eyes and solids, then sums them up.
+class Tally {
+  public:
+    void add(VisibilitySource& tested, VisibilitySource& reference, std::span<const Vec3> eyes) {
+        const int face_px = reference.directions().face_px;
+        if (face_px == 0 || tested.directions().face_px != face_px) {
+            throw UsageError("only cube maps of one size can be compared texel by texel");
+        }
+        const auto neighbours = texel_neighbours(face_px);
+        MapBatch a;
+        MapBatch b;
+        for (const Vec3& eye : eyes) {
+            tested.render(std::span(&eye, 1), a);
+            reference.render(std::span(&eye, 1), b);
+            add_texels(reference, eye, a.view(0), b.view(0), neighbours);
+            add_force(reference.directions(), a.view(0), b.view(0));
+        }
+        out_.eyes += eyes.size();
+        out_.texels += eyes.size() * reference.directions().size();
+    }
+
+    SourceComparison finish() {
+        std::vector<double> all = inner_;
+        all.insert(all.end(), silhouette_.begin(), silhouette_.end());
+        out_.inner = difference_of(inner_);
+        out_.silhouette = difference_of(silhouette_);
+        out_.all = difference_of(all);
+        if (!inner_.empty()) {
+            out_.id_agreement_inner = static_cast<double>(inner_same_) / static_cast<double>(inner_.size());
+        }
+        if (!all.empty()) out_.id_agreement_all = static_cast<double>(same_) / static_cast<double>(all.size());
+        out_.force_error_median = quantile(force_errors_, 0.5);
+        out_.force_error_p95 = quantile(force_errors_, 0.95);
+        out_.force_error_worst = quantile(force_errors_, 1.0);
+        out_.angles = angles_.size();
+        out_.angle_median_deg = quantile(angles_, 0.5);
+        out_.angle_worst_deg = quantile(angles_, 1.0);
+        return out_;
+    }
+
+  private:
+    void add_texels(const VisibilitySource& reference, const Vec3& eye, const MapView& a, const MapView& b,
+                    const std::vector<std::array<std::uint32_t, 4>>& neighbours) {
+        for (std::size_t i = 0; i < b.distance.size(); ++i) {
+            const bool hit_a = std::isfinite(a.distance[i]);
+            const bool hit_b = std::isfinite(b.distance[i]);
+            out_.one_sided += hit_a != hit_b ? 1 : 0;
+            if (!hit_a || !hit_b) continue;
+            const double difference =
+                std::abs(static_cast<double>(a.distance[i]) - b.distance[i]) / b.distance[i];
+            const bool same = a.id[i] == b.id[i];
+            const bool inner = std::all_of(neighbours[i].begin(), neighbours[i].end(),
+                                           [&](std::uint32_t n) { return b.id[n] == b.id[i]; });
+            same_ += same ? 1 : 0;
+            if (!inner) {
+                silhouette_.push_back(difference);
+                continue;
+            }
+            inner_same_ += same ? 1 : 0;
+            if (inner_.empty() || difference > worst_) {
+                worst_ = difference;
+                out_.worst_inner = {reference.solid().world_from_model.to_model(eye),
+                                    reference.directions().unit[i], a.distance[i], b.distance[i]};
+            }
+            inner_.push_back(difference);
+        }
+    }
+
+    void add_force(const Directions& directions, const MapView& a, const MapView& b) {
+        const Force fa = force_at(directions, a);
+        const Force fb = force_at(directions, b);
+        if (!(fb.mean_inverse_distance > 0.0)) return;
+        force_errors_.push_back(glm::length(fa.vector - fb.vector) / fb.mean_inverse_distance);
+        const double floor = kForceMeansSomething * fb.mean_inverse_distance;
+        if (glm::length(fa.vector) < floor || glm::length(fb.vector) < floor) return;
+        const double angle = std::atan2(glm::length(glm::cross(fa.vector, fb.vector)), glm::dot(fa.vector, fb.vector));
+        angles_.push_back(angle * 180.0 / std::numbers::pi);
+    }
+
+    SourceComparison out_;
+    std::vector<double> inner_;
+    std::vector<double> silhouette_;
+    std::vector<double> force_errors_;
+    std::vector<double> angles_;
+    std::size_t same_ = 0;
+    std::size_t inner_same_ = 0;
+    double worst_ = 0.0;
+};
+
+}  // namespace
+
+bool is_within(const SourceComparison& comparison, const ComparisonBounds& bounds) {
+    return comparison.all.median <= bounds.texel_median && comparison.inner.p999 <= bounds.inner_p999 &&
+           comparison.force_error_p95 <= bounds.force_p95;
+}
+
+std::vector<Vec3> comparison_eyes(const Surface& solid, VisibilitySource& source, int count,
+                                  const ExtractOptions& options) {
+    const std::size_t wanted = static_cast<std::size_t>(std::max(1, (count + 2) / 3));
+    const SurfaceQuery query(solid);
+    const std::vector<Seed> all = place_seeds(solid, query, options.seeds);
+    const std::size_t taken = std::min(wanted, all.size());
+    std::vector<Seed> seeds;
+    for (std::size_t i = 0; i < taken; ++i) seeds.push_back(all[i * all.size() / taken]);
+    PaperStepOptions steps = options.steps;
+    steps.keep_paths = true;
+    std::vector<Vec3> eyes;
+    for (const SettledSeed& seed : settle_seeds(source, seeds, steps)) {
+        if (seed.path.empty()) {
+            eyes.push_back(seed.position);
+        } else {
+            eyes.insert(eyes.end(), {seed.path.front(), seed.path[seed.path.size() / 2], seed.path.back()});
+        }
+    }
+    return eyes;
+}
+
+SourceComparison compare_sources(VisibilitySource& tested, VisibilitySource& reference,
+                                 std::span<const Vec3> eyes) {
+    Tally tally;
+    tally.add(tested, reference, eyes);
+    return tally.finish();
+}
+
+SourceComparison compare_backends(const Mesh& mesh, Backend& tested, Backend& reference, int eyes,
+                                  const ExtractOptions& options) {
+    const PreparedSurface prepared = prepare_surface(mesh);
+    Tally tally;
+    for (const Solid& solid : split_solids(prepared)) {
+        const double share = static_cast<double>(solid.surface.positions.size()) /
+                             static_cast<double>(prepared.surface.positions.size());
+        const auto a = tested.prepare(solid.surface);
+        const auto b = reference.prepare(solid.surface);
+        const int count = std::max(3, static_cast<int>(std::lround(eyes * share)));
+        tally.add(*a, *b, comparison_eyes(solid.surface, *b, count, options));
+    }
+    return tally.finish();
+}
+
+}  // namespace zskel

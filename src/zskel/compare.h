@@ -1,0 +1,70 @@
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "zskel/extract.h"
+#include "zskel/visibility/backend.h"
+#include "zskel/visibility/visibility_source.h"
+
+namespace zskel {
+
+/// How far two sources differ on the same eyes and directions.
+struct Difference {
+    double median = 0.0;
+    double p999 = 0.0;            ///< 99.9 %
+    double worst = 0.0;
+    std::size_t count = 0;
+};
+
+/// Where the worst texel of a comparison is.
+struct WorstTexel {
+    DVec3 eye_model{0.0};
+    DVec3 direction{0.0};
+    float distance = 0.0f;        ///< world units, by the source under test
+    float reference = 0.0f;       ///< and by the reference
+};
+
+struct SourceComparison {
+    std::size_t eyes = 0;
+    std::size_t texels = 0;
+    Difference inner;             ///< |a - b| / b over texels whose neighbours show the same triangle (reference)
+    Difference silhouette;        ///< the same over the others
+    Difference all;               ///< and over both
+    WorstTexel worst_inner;
+    std::size_t one_sided = 0;    ///< texels where only one of the two hits anything
+    double id_agreement_inner = 1.0;
+    double id_agreement_all = 1.0;
+    double force_error_median = 0.0;   ///< |Fa - Fb| over the mean of 1/r
+    double force_error_p95 = 0.0;
+    double force_error_worst = 0.0;
+    double angle_median_deg = 0.0;     ///< between the forces, only where both exceed 5 % of the mean of 1/r
+    double angle_worst_deg = 0.0;
+    std::size_t angles = 0;
+};
+
+/// Bounds of a comparison; what is within them counts as agreement.
+struct ComparisonBounds {
+    double texel_median = 1e-5;
+    double inner_p999 = 1e-3;
+    double force_p95 = 1e-3;
+};
+bool is_within(const SourceComparison& comparison, const ComparisonBounds& bounds);
+
+/// Eyes on which sources are compared: of seeds spread evenly over the vertices, one third at their starts, one
+/// third half-way, one third at their ends, settled by the paper's method with `source`.
+std::vector<Vec3> comparison_eyes(const Surface& solid, VisibilitySource& source, int count,
+                                  const ExtractOptions& options);
+
+/// Compares cube maps of two sources of one solid. Both must sample the same directions.
+/// @throws UsageError when they do not.
+SourceComparison compare_sources(VisibilitySource& tested, VisibilitySource& reference,
+                                 std::span<const Vec3> eyes);
+
+/// The same over a whole mesh: every solid gets its share of `eyes`, by vertices, at least 3.
+/// @throws InputError, GlError, UsageError.
+SourceComparison compare_backends(const Mesh& mesh, Backend& tested, Backend& reference, int eyes,
+                                  const ExtractOptions& options);
+
+}  // namespace zskel
