@@ -1,5 +1,8 @@
 #include <doctest/doctest.h>
 
+#include <cstdlib>
+#include <random>
+
 #include "support/parse.h"
 
 namespace zskel {
@@ -77,6 +80,27 @@ TEST_CASE("read_obj: a number too small for a double is zero") {
           DVec3(0.0, 0.0, 5e-324));
 }
 
+TEST_CASE("read_obj: numbers of any length become the nearest double") {
+    std::mt19937_64 random(5);
+    for (int round = 0; round < 5000; ++round) {
+        std::string text = random() % 2 == 0 ? "-" : "";
+        text += std::to_string(random()).substr(0, 1 + random() % 19) + ".";
+        text += std::to_string(random()).substr(0, random() % 19);
+        if (random() % 4 == 0) text += "e" + std::to_string(static_cast<int>(random() % 60) - 30);
+        CAPTURE(text);
+        const Mesh mesh = parse_obj("v " + text + " 0 0\nf 1 1 1");
+        CHECK(mesh.positions[0].x == std::strtod(text.c_str(), nullptr));
+    }
+    for (const std::string text :
+         {"9007199254740993", "0.1", ".5", "5.", "-0", "00000000000000000001",
+          "0.00000000000000000000001", "123456789012345678901234567890",
+          "179769313486231570000e288", "4.9e-324", "1E5", "+.25"}) {
+        CAPTURE(text);
+        const Mesh mesh = parse_obj("v " + text + " 0 0\nf 1 1 1");
+        CHECK(mesh.positions[0].x == std::strtod(text.c_str(), nullptr));
+    }
+}
+
 TEST_CASE("read_obj: a face that repeats a vertex stays a face") {
     CHECK(parse_obj(kThree + "f 1 1 2\n").triangles[0] == Triangle(0, 0, 1));
 }
@@ -94,6 +118,10 @@ TEST_CASE("read_obj: what is malformed is refused, with line and value") {
         {"v 0 1,5 0\n", "coordinate y '1,5' is not a number"},
         {"v 0 0x10 0\n", "coordinate y '0x10' is not a number"},
         {"v 0 +-1 0\n", "coordinate y '+-1' is not a number"},
+        {"v 0 . 0\n", "coordinate y '.' is not a number"},
+        {"v 0 1.2.3 0\n", "coordinate y '1.2.3' is not a number"},
+        {"v 0 1e 0\n", "coordinate y '1e' is not a number"},
+        {"v 0 --1 0\n", "coordinate y '--1' is not a number"},
         {"v 0 - 0\n", "coordinate y '-' is not a number"},
         {"v 0 0 0 1 1\n", "model:1: 5 numbers after 'v'"},
         {"v 0 0 0 1 1 1 1 1\n", "model:1: 8 numbers after 'v'"},

@@ -276,11 +276,11 @@ class MeshChecker {
     }
 
     template <typename Condition>
-    void note_components(std::string name, Condition condition, std::string action) {
+    void note_components(const std::string& name, Condition condition, const std::string& action) {
         const auto& all = report_.components;
         const auto first = std::find_if(all.begin(), all.end(), condition);
-        note(std::move(name), static_cast<std::size_t>(std::count_if(first, all.end(), condition)),
-             fmt::format("component {}", first - all.begin()), std::move(action));
+        note(name, static_cast<std::size_t>(std::count_if(first, all.end(), condition)),
+             fmt::format("component {}", first - all.begin()), action);
     }
 
     void note_components() {

@@ -23,6 +23,11 @@ namespace zskel {
 namespace {
 
 constexpr std::string_view kForms = "OBJ, OFF, PLY or STL";
+constexpr std::array<std::string_view, 5> kOffExtensions = {".off", ".coff", ".noff", ".cnoff",
+                                                            ".stoff"};
+/// First words by which an OBJ file without its extension is told.
+constexpr std::array<std::string_view, 8> kObjWords = {"v", "vt", "vn",     "o",
+                                                       "g", "s",  "mtllib", "usemtl"};
 constexpr std::size_t kFirstRead = std::size_t{1} << 16;
 
 struct CloseFile {
@@ -71,8 +76,8 @@ std::optional<MeshFormat> format_of_extension(const std::string& path) {
     if (extension == ".obj") return MeshFormat::Obj;
     if (extension == ".ply") return MeshFormat::Ply;
     if (extension == ".stl") return MeshFormat::Stl;
-    constexpr std::array<std::string_view, 5> kOff = {".off", ".coff", ".noff", ".cnoff", ".stoff"};
-    if (std::find(kOff.begin(), kOff.end(), extension) != kOff.end()) return MeshFormat::Off;
+    if (std::find(kOffExtensions.begin(), kOffExtensions.end(), extension) != kOffExtensions.end())
+        return MeshFormat::Off;
     return std::nullopt;
 }
 
@@ -84,9 +89,8 @@ MeshFormat format_of_content(std::string_view bytes, const std::string& name) {
     if (word.size() >= 3 && word.size() <= 7 && word.substr(word.size() - 3) == "OFF") {
         return MeshFormat::Off;
     }
-    constexpr std::array<std::string_view, 8> kObj = {"v", "vt", "vn",     "o",
-                                                      "g", "s",  "mtllib", "usemtl"};
-    if (std::find(kObj.begin(), kObj.end(), word) != kObj.end()) return MeshFormat::Obj;
+    if (std::find(kObjWords.begin(), kObjWords.end(), word) != kObjWords.end())
+        return MeshFormat::Obj;
     throw InputError(
         fmt::format("{}: neither the name nor the content, which begins with {}, is that "
                     "of {}",

@@ -22,13 +22,16 @@ constexpr std::size_t kNormalBytes = 12;
 constexpr std::size_t kAttributeBytes = 2;
 /// Bytes of the shortest ascii facet, for a first guess at the number of vertices.
 constexpr std::size_t kShortestAsciiFacet = 90;
+/// A zero among so many first bytes means that the file is no text.
+constexpr std::size_t kLookedAtBytes = 512;
 
 std::uint64_t size_for(std::uint32_t facets) {
     return kHeaderBytes + sizeof facets + std::uint64_t{facets} * kFacetBytes;
 }
 
 bool equals_in_any_case(std::string_view word, std::string_view lower) {
-    return std::equal(word.begin(), word.end(), lower.begin(), lower.end(),
+    return word == lower ||
+           std::equal(word.begin(), word.end(), lower.begin(), lower.end(),
                       [](unsigned char a, char b) { return std::tolower(a) == b; });
 }
 
@@ -138,8 +141,7 @@ Mesh read_binary(std::string_view bytes, std::string_view name) {
 
 /// True when the first word is "solid" and what follows looks like text.
 bool begins_as_ascii(std::string_view bytes) {
-    constexpr std::size_t kLookAt = 512;
-    if (bytes.substr(0, kLookAt).find('\0') != std::string_view::npos) return false;
+    if (bytes.substr(0, kLookedAtBytes).find('\0') != std::string_view::npos) return false;
     TextCursor text(bytes, {});
     return text.to_content() && equals_in_any_case(text.word(), "solid");
 }

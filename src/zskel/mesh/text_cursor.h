@@ -1,6 +1,5 @@
 #pragma once
 
-#include <charconv>
 #include <cstdint>
 #include <string>
 #include <string_view>
@@ -28,7 +27,7 @@ class TextCursor {
 
     /// Skips blanks; true when nothing is left on this line.
     bool line_done() {
-        while (at_ != end_ && (is_blank(*at_) || (rules_.joined_lines && skip_joint()))) ++at_;
+        while (at_ != end_ && (is_blank(*at_) || (*at_ == '\\' && skip_joint()))) ++at_;
         return at_ == end_ || is_line_end(*at_) || (rules_.hash_comments && *at_ == '#');
     }
 
@@ -53,13 +52,21 @@ class TextCursor {
     /// The next word of this line as a whole number.
     std::int64_t integer(std::string_view what);
 
-    /// Digits with a sign right here, whatever follows; false when there are none that fit.
+    /// Digits with or without a sign right here, whatever follows; false when there are none, or
+    /// more than kMostDigits.
     bool take_integer(std::int64_t& value) {
-        const char* first = at_ != end_ && *at_ == '+' ? at_ + 1 : at_;
-        if (first != at_ && first != end_ && *first == '-') return false;
-        const auto [past, error] = std::from_chars(first, end_, value);
-        if (error != std::errc{}) return false;
-        at_ = past;
+        const char* at = at_;
+        const bool is_negative = at != end_ && *at == '-';
+        if (at != end_ && (*at == '-' || *at == '+')) ++at;
+        const char* first = at;
+        std::int64_t digits = 0;
+        for (; at != end_ && is_digit(*at); ++at) {
+            if (at - first == kMostDigits) return false;
+            digits = digits * 10 + (*at - '0');
+        }
+        if (at == first) return false;
+        value = is_negative ? -digits : digits;
+        at_ = at;
         return true;
     }
     /// Steps over `c` if it is right here.
@@ -79,7 +86,10 @@ class TextCursor {
     [[noreturn]] void fail(std::string_view text) const;
 
   private:
+    static constexpr int kMostDigits = 18;  // any number of so many digits fits 64 bits
+
     static bool is_blank(char c) { return c == ' ' || c == '\t' || c == '\v' || c == '\f'; }
+    static bool is_digit(char c) { return c >= '0' && c <= '9'; }
     static bool is_line_end(char c) { return c == '\n' || c == '\r'; }
     bool is_joint(const char* p) const {
         return *p == '\\' && (p + 1 == end_ || is_line_end(p[1]));
@@ -88,6 +98,8 @@ class TextCursor {
         return p == end_ || is_blank(*p) || is_line_end(*p) || (rules_.joined_lines && is_joint(p));
     }
     bool skip_joint();
+    bool take_short_number(double& value);
+    double take_any_number(std::string_view what);
     [[noreturn]] void fail_word(const char* begin, std::string_view what,
                                 std::string_view expected) const;
 
