@@ -1,0 +1,30 @@
+#include "catalogue.h"
+
+#include "primitives.h"
+#include "quadrupeds.h"
+
+namespace zskel::models {
+namespace {
+
+Recipe recipe(const std::string& name, Shape (*shape)(), const Expected& expected, int levels = 7) {
+    return {name, [=] { return mesh_shape(name, shape(), expected, levels); }};
+}
+
+}  // namespace
+
+const std::vector<Recipe>& catalogue() {
+    static const std::vector<Recipe> recipes = {
+        recipe("horse", shape_horse, {.faces = 2000, .ends = 8}),
+        recipe("horse_8k", shape_horse, {.faces = 8000, .ends = 8}, 8),
+        {"capsule", make_capsule},
+        {"y", make_y},
+        {"torus", make_torus},
+        {"double_torus", make_double_torus},
+        {"cube", [] { return make_cube("cube", 10); }},
+        {"cube_coarse", [] { return make_cube("cube_coarse", 1); }},
+        {"sphere", make_sphere},
+    };
+    return recipes;
+}
+
+}  // namespace zskel::models
