@@ -98,11 +98,11 @@ TEST_CASE("check_mesh: a cube is a proper solid of volume one") {
 }
 
 TEST_CASE("check_mesh: a torus has one handle and about Pappus's volume") {
-    constexpr std::uint32_t kSides = 200;
-    const MeshReport report = check_mesh(torus(kSides, 2.0, 0.5));
+    constexpr std::uint32_t sides = 200;
+    const MeshReport report = check_mesh(torus(sides, 2.0, 0.5));
     CHECK(report.genus == 1);
     // An inscribed n-gon has less area than its circle by a factor of 1 - (2 pi / n)^2 / 6; twice.
-    const double angle = 2.0 * std::numbers::pi / kSides;
+    const double angle = 2.0 * std::numbers::pi / sides;
     const double exact = 2.0 * std::numbers::pi * std::numbers::pi * 2.0 * 0.25;
     CHECK(report.volume.value() < exact);
     CHECK(report.volume.value() > exact * (1.0 - 2.0 * angle * angle));
@@ -204,16 +204,16 @@ TEST_CASE("check_mesh: a fin on a cube is a non-manifold edge") {
 }
 
 TEST_CASE("check_mesh: a Moebius strip is not orientable") {
-    constexpr std::uint32_t kQuads = 30;
+    constexpr std::uint32_t quads = 30;
     std::vector<DVec3> positions;
     std::vector<Triangle> triangles;
-    for (std::uint32_t i = 0; i < kQuads; ++i) {
-        const double u = 2.0 * std::numbers::pi * i / kQuads;
+    for (std::uint32_t i = 0; i < quads; ++i) {
+        const double u = 2.0 * std::numbers::pi * i / quads;
         for (const double side : {-0.3, 0.3}) {
             const double r = 1.0 + side * std::cos(u / 2.0);
             positions.emplace_back(r * std::cos(u), r * std::sin(u), side * std::sin(u / 2.0));
         }
-        const bool is_last = i + 1 == kQuads;
+        const bool is_last = i + 1 == quads;
         const std::uint32_t low = is_last ? 1 : 2 * i + 2;
         const std::uint32_t high = is_last ? 0 : 2 * i + 3;
         triangles.emplace_back(2 * i, low, high);

@@ -149,33 +149,35 @@ TEST_CASE("parse_mesh: every cut of a file is an input error or a mesh that keep
     }
 }
 
+/// What number parsers, line counters and header readers stumble over.
+const std::vector<std::string> kPieces = {"-1",
+                                          "0",
+                                          "4294967295",
+                                          "4294967296",
+                                          "99999999999999999999",
+                                          "nan",
+                                          "1e999",
+                                          "inf",
+                                          "\n",
+                                          "\r",
+                                          "\\",
+                                          "#",
+                                          "/",
+                                          " ",
+                                          "\t",
+                                          "+-",
+                                          ".",
+                                          "-",
+                                          "f ",
+                                          "v ",
+                                          "\xFF\xFF\xFF\xFF",
+                                          "property list uchar int a\n",
+                                          "element face 3\n",
+                                          "solid",
+                                          "3 0 1 2\n"};
+
 /// One change that a broken disk, a careless script or an attacker might make.
 std::string mutated(std::string bytes, std::mt19937& random) {
-    static const std::vector<std::string> pieces = {"-1",
-                                                    "0",
-                                                    "4294967295",
-                                                    "4294967296",
-                                                    "99999999999999999999",
-                                                    "nan",
-                                                    "1e999",
-                                                    "inf",
-                                                    "\n",
-                                                    "\r",
-                                                    "\\",
-                                                    "#",
-                                                    "/",
-                                                    " ",
-                                                    "\t",
-                                                    "+-",
-                                                    ".",
-                                                    "-",
-                                                    "f ",
-                                                    "v ",
-                                                    "\xFF\xFF\xFF\xFF",
-                                                    "property list uchar int a\n",
-                                                    "element face 3\n",
-                                                    "solid",
-                                                    "3 0 1 2\n"};
     const auto below = [&random](std::size_t end) {
         return random() % std::max<std::size_t>(end, 1);
     };
@@ -192,13 +194,13 @@ std::string mutated(std::string bytes, std::mt19937& random) {
                 bytes.erase(at, 1 + below(8));
                 break;
             case 3:
-                bytes.insert(at, pieces[below(pieces.size())]);
+                bytes.insert(at, kPieces[below(kPieces.size())]);
                 break;
             case 4:
                 bytes.insert(at, bytes.substr(below(bytes.size()), below(20)));
                 break;
             default: {
-                const std::string& piece = pieces[below(pieces.size())];
+                const std::string& piece = kPieces[below(kPieces.size())];
                 bytes.replace(at, piece.size(), piece);
             }
         }
@@ -207,11 +209,11 @@ std::string mutated(std::string bytes, std::mt19937& random) {
 }
 
 TEST_CASE("parse_mesh: changed bytes give an input error or a mesh that keeps its promises") {
-    constexpr int kRounds = 3000;
+    constexpr int rounds = 3000;
     std::mt19937 random(2003);
     for (const Seed& seed : seeds()) {
         int read = 0;
-        for (int round = 0; round < kRounds; ++round) {
+        for (int round = 0; round < rounds; ++round) {
             try {
                 const Mesh mesh = test::parse(mutated(seed.bytes, random), seed.format);
                 check_promises(mesh);
@@ -222,7 +224,7 @@ TEST_CASE("parse_mesh: changed bytes give an input error or a mesh that keeps it
             }
         }
         CHECK(read > 0);
-        CHECK(read < kRounds);
+        CHECK(read < rounds);
     }
 }
 

@@ -1,4 +1,5 @@
 #include <doctest/doctest.h>
+#include <fmt/format.h>
 
 #include <cstdlib>
 #include <random>
@@ -86,7 +87,7 @@ TEST_CASE("read_obj: numbers of any length become the nearest double") {
         std::string text = random() % 2 == 0 ? "-" : "";
         text += std::to_string(random()).substr(0, 1 + random() % 19) + ".";
         text += std::to_string(random()).substr(0, random() % 19);
-        if (random() % 4 == 0) text += "e" + std::to_string(static_cast<int>(random() % 60) - 30);
+        if (random() % 4 == 0) text += fmt::format("e{}", static_cast<int>(random() % 60) - 30);
         CAPTURE(text);
         const Mesh mesh = parse_obj("v " + text + " 0 0\nf 1 1 1");
         CHECK(mesh.positions[0].x == std::strtod(text.c_str(), nullptr));

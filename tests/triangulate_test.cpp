@@ -106,6 +106,7 @@ TEST_CASE("triangulate: concave polygons are cut inside their outline") {
         {{0, 0, 0}, {5, 0, 0}, {5, 5, 0}, {0, 5, 0}, {0, 4, 0}, {4, 4, 0}, {4, 1, 0}, {0, 1, 0}});
     check_proper(star(10, 0.3));
     check_proper(star(200, 0.05));
+    check_proper(star(20000, 0.9));
 }
 
 TEST_CASE("triangulate: turning and moving a polygon does not change how it is cut") {

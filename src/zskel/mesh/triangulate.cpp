@@ -5,8 +5,8 @@
 #include "zskel/mesh/triangulate.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
+#include <numeric>
 
 #include "zskel/core/assert.h"
 
@@ -65,12 +65,20 @@ std::vector<glm::dvec2> flatten(std::span<const DVec3> positions,
 class Outline {
   public:
     Outline(std::vector<glm::dvec2> flat, std::span<const std::uint32_t> polygon)
-        : flat_(std::move(flat)), polygon_(polygon), next_(polygon.size()), prev_(polygon.size()) {
+        : flat_(std::move(flat)),
+          polygon_(polygon),
+          next_(polygon.size()),
+          prev_(polygon.size()),
+          by_x_(polygon.size()),
+          is_cut_(polygon.size(), false) {
         const auto n = static_cast<std::uint32_t>(polygon.size());
         for (std::uint32_t i = 0; i < n; ++i) {
             next_[i] = (i + 1) % n;
             prev_[i] = (i + n - 1) % n;
         }
+        std::iota(by_x_.begin(), by_x_.end(), 0U);
+        std::sort(by_x_.begin(), by_x_.end(),
+                  [this](auto l, auto r) { return flat_[l].x < flat_[r].x; });
     }
 
     std::uint32_t next(std::uint32_t corner) const { return next_[corner]; }
@@ -81,9 +89,12 @@ class Outline {
 
     bool is_ear(std::uint32_t corner) const {
         if (turn(corner) != Turn::Left) return false;
-        const std::uint32_t last = prev_[corner];
-        for (std::uint32_t i = next_[next_[corner]]; i != last; i = next_[i]) {
-            if (blocks(corner, i)) return false;
+        const auto [low, high] =
+            std::minmax({flat_[prev_[corner]].x, flat_[corner].x, flat_[next_[corner]].x});
+        auto at = std::lower_bound(by_x_.begin(), by_x_.end(), low,
+                                   [this](auto i, double x) { return flat_[i].x < x; });
+        for (; at != by_x_.end() && flat_[*at].x <= high; ++at) {
+            if (!is_cut_[*at] && blocks(corner, *at)) return false;
         }
         return true;
     }
@@ -93,6 +104,7 @@ class Outline {
         const std::uint32_t after = next_[corner];
         next_[before] = after;
         prev_[after] = before;
+        is_cut_[corner] = true;
         return {polygon_[before], polygon_[corner], polygon_[after]};
     }
 
@@ -114,6 +126,9 @@ class Outline {
     std::span<const std::uint32_t> polygon_;
     std::vector<std::uint32_t> next_;
     std::vector<std::uint32_t> prev_;
+    std::vector<std::uint32_t>
+        by_x_;  // corners from left to right: ears are narrow, few lie below one
+    std::vector<bool> is_cut_;
 };
 
 /// The first corner from `start` on that can be cut; kNone when there is none.
@@ -137,10 +152,11 @@ bool clip_ears(Outline outline, std::size_t corners, std::vector<Triangle>& tria
             proper = false;
             corner = outline.next(at);
         }
-        // A fan keeps its hub; ears go on behind the cut, which spreads them over the outline.
-        const std::uint32_t after = outline.next(corner);
+        // A fan keeps its hub; proper cutting goes on two corners behind the cut, which spreads
+        // ears over the outline and keeps them small.
+        const std::uint32_t behind = outline.next(outline.next(corner));
         triangles.push_back(outline.cut(corner));
-        if (proper) at = after;
+        if (proper) at = behind;
     }
     triangles.push_back(outline.cut(outline.next(at)));
     return proper;
@@ -181,7 +197,7 @@ bool triangulate(std::span<const DVec3> positions, std::span<const std::uint32_t
         triangles.emplace_back(polygon[0], polygon[1], polygon[2]);
         return true;
     }
-    // Unit length, so that what follows neither over- nor underflows before the input does.
+    // Scaled, so that what follows neither over- nor underflows before the input does.
     DVec3 normal = newell_normal(positions, polygon);
     const double size = std::max({std::abs(normal.x), std::abs(normal.y), std::abs(normal.z)});
     if (!(size > 0.0) || !std::isfinite(size)) {
