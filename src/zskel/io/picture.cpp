@@ -85,7 +85,11 @@ class Painter {
     }
 
   private:
-    enum Texture { kSurface, kSurfaceDepth, kColor, kDepth };
+    // Two targets, each with its depth.
+    static constexpr std::size_t kSurface = 0;
+    static constexpr std::size_t kSurfaceDepth = 1;
+    static constexpr std::size_t kColor = 2;
+    static constexpr std::size_t kColorDepth = 3;
 
     void prepare_programs() {
         const gl::ShaderStage surface{GL_VERTEX_SHADER, "surface.vert", glsl::kSurfaceVert};
@@ -128,8 +132,8 @@ class Painter {
 
     void prepare_targets() {
         gl_.CreateTextures(GL_TEXTURE_2D, static_cast<GLsizei>(textures_.size()), textures_.data());
-        const std::array<GLenum, 4> formats{GL_RGBA16F, GL_DEPTH_COMPONENT32F, GL_RGBA8,
-                                            GL_DEPTH_COMPONENT32F};
+        const std::array<GLenum, kColorDepth + 1> formats{GL_RGBA16F, GL_DEPTH_COMPONENT32F,
+                                                          GL_RGBA8, GL_DEPTH_COMPONENT32F};
         for (std::size_t i = 0; i < textures_.size(); ++i) {
             gl_.TextureStorage2D(textures_[i], 1, formats[i], width_, height_);
         }
@@ -210,7 +214,7 @@ class Painter {
     std::array<GLuint, 2> buffers_{};       // corners, capsules
     std::array<GLuint, 2> arrays_{};        // corners, nothing
     std::array<GLuint, 2> framebuffers_{};  // the surface's nearest layer, the picture
-    std::array<GLuint, 4> textures_{};      // by Texture
+    std::array<GLuint, 4> textures_{};      // kSurface ... kColorDepth
 };
 
 // Averages samples x samples blocks of a band (rows upward) into the picture's rows (downward).
