@@ -18,7 +18,8 @@ constexpr double kForceMeansSomething = 0.05;  // of the mean of 1/r; below, its
 
 // The four neighbours of every texel, over the cube's edges too.
 std::vector<std::array<std::uint32_t, 4>> texel_neighbours(int face_px) {
-    const std::size_t count = 6 * static_cast<std::size_t>(face_px) * static_cast<std::size_t>(face_px);
+    const std::size_t count =
+        6 * static_cast<std::size_t>(face_px) * static_cast<std::size_t>(face_px);
     std::vector<std::array<std::uint32_t, 4>> out(count);
     for (std::size_t i = 0; i < count; ++i) {
         const Texel texel = texel_at(i, face_px);
@@ -38,7 +39,8 @@ std::vector<std::array<std::uint32_t, 4>> texel_neighbours(int face_px) {
 
 double quantile(std::vector<double>& values, double share) {
     if (values.empty()) return 0.0;
-    const auto rank = static_cast<std::size_t>(std::ceil(share * static_cast<double>(values.size()))) - 1;
+    const auto rank =
+        static_cast<std::size_t>(std::ceil(share * static_cast<double>(values.size()))) - 1;
     const auto at = values.begin() + static_cast<std::ptrdiff_t>(std::min(rank, values.size() - 1));
     std::nth_element(values.begin(), at, values.end());
     return *at;
@@ -76,9 +78,11 @@ class Tally {
         out_.silhouette = difference_of(silhouette_);
         out_.all = difference_of(all);
         if (!inner_.empty()) {
-            out_.id_agreement_inner = static_cast<double>(inner_same_) / static_cast<double>(inner_.size());
+            out_.id_agreement_inner =
+                static_cast<double>(inner_same_) / static_cast<double>(inner_.size());
         }
-        if (!all.empty()) out_.id_agreement_all = static_cast<double>(same_) / static_cast<double>(all.size());
+        if (!all.empty())
+            out_.id_agreement_all = static_cast<double>(same_) / static_cast<double>(all.size());
         out_.force_error_median = quantile(force_errors_, 0.5);
         out_.force_error_p95 = quantile(force_errors_, 0.95);
         out_.force_error_worst = quantile(force_errors_, 1.0);
@@ -89,8 +93,8 @@ class Tally {
     }
 
   private:
-    void add_texels(const VisibilitySource& reference, const Vec3& eye, const MapView& a, const MapView& b,
-                    const std::vector<std::array<std::uint32_t, 4>>& neighbours) {
+    void add_texels(const VisibilitySource& reference, const Vec3& eye, const MapView& a,
+                    const MapView& b, const std::vector<std::array<std::uint32_t, 4>>& neighbours) {
         for (std::size_t i = 0; i < b.distance.size(); ++i) {
             const bool hit_a = std::isfinite(a.distance[i]);
             const bool hit_b = std::isfinite(b.distance[i]);
@@ -123,7 +127,8 @@ class Tally {
         force_errors_.push_back(glm::length(fa.vector - fb.vector) / fb.mean_inverse_distance);
         const double floor = kForceMeansSomething * fb.mean_inverse_distance;
         if (glm::length(fa.vector) < floor || glm::length(fb.vector) < floor) return;
-        const double angle = std::atan2(glm::length(glm::cross(fa.vector, fb.vector)), glm::dot(fa.vector, fb.vector));
+        const double angle = std::atan2(glm::length(glm::cross(fa.vector, fb.vector)),
+                                        glm::dot(fa.vector, fb.vector));
         angles_.push_back(angle * 180.0 / std::numbers::pi);
     }
 
@@ -140,7 +145,8 @@ class Tally {
 }  // namespace
 
 bool is_within(const SourceComparison& comparison, const ComparisonBounds& bounds) {
-    return comparison.all.median <= bounds.texel_median && comparison.inner.p999 <= bounds.inner_p999 &&
+    return comparison.all.median <= bounds.texel_median &&
+           comparison.inner.p999 <= bounds.inner_p999 &&
            comparison.force_error_p95 <= bounds.force_p95;
 }
 
@@ -159,7 +165,8 @@ std::vector<Vec3> comparison_eyes(const Surface& solid, VisibilitySource& source
         if (seed.path.empty()) {
             eyes.push_back(seed.position);
         } else {
-            eyes.insert(eyes.end(), {seed.path.front(), seed.path[seed.path.size() / 2], seed.path.back()});
+            eyes.insert(eyes.end(),
+                        {seed.path.front(), seed.path[seed.path.size() / 2], seed.path.back()});
         }
     }
     return eyes;

@@ -13,7 +13,7 @@ namespace zskel {
 /// How far two sources differ on the same eyes and directions.
 struct Difference {
     double median = 0.0;
-    double p999 = 0.0;            ///< 99.9 %
+    double p999 = 0.0;  ///< 99.9 %
     double worst = 0.0;
     std::size_t count = 0;
 };
@@ -22,24 +22,26 @@ struct Difference {
 struct WorstTexel {
     DVec3 eye_model{0.0};
     DVec3 direction{0.0};
-    float distance = 0.0f;        ///< world units, by the source under test
-    float reference = 0.0f;       ///< and by the reference
+    float distance = 0.0f;   ///< world units, by the source under test
+    float reference = 0.0f;  ///< and by the reference
 };
 
 struct SourceComparison {
     std::size_t eyes = 0;
     std::size_t texels = 0;
-    Difference inner;             ///< |a - b| / b over texels whose neighbours show the same triangle (reference)
-    Difference silhouette;        ///< the same over the others
-    Difference all;               ///< and over both
+    Difference
+        inner;  ///< |a - b| / b over texels whose neighbours show the same triangle (reference)
+    Difference silhouette;  ///< the same over the others
+    Difference all;         ///< and over both
     WorstTexel worst_inner;
-    std::size_t one_sided = 0;    ///< texels where only one of the two hits anything
+    std::size_t one_sided = 0;  ///< texels where only one of the two hits anything
     double id_agreement_inner = 1.0;
     double id_agreement_all = 1.0;
-    double force_error_median = 0.0;   ///< |Fa - Fb| over the mean of 1/r
+    double force_error_median = 0.0;  ///< |Fa - Fb| over the mean of 1/r
     double force_error_p95 = 0.0;
     double force_error_worst = 0.0;
-    double angle_median_deg = 0.0;     ///< between the forces, only where both exceed 5 % of the mean of 1/r
+    double angle_median_deg =
+        0.0;  ///< between the forces, only where both exceed 5 % of the mean of 1/r
     double angle_worst_deg = 0.0;
     std::size_t angles = 0;
 };
@@ -52,8 +54,9 @@ struct ComparisonBounds {
 };
 bool is_within(const SourceComparison& comparison, const ComparisonBounds& bounds);
 
-/// Eyes on which sources are compared: of seeds spread evenly over the vertices, one third at their starts, one
-/// third half-way, one third at their ends, settled by the paper's method with `source`.
+/// Eyes on which sources are compared: of seeds spread evenly over the vertices, one third at their
+/// starts, one third half-way, one third at their ends, settled by the paper's method with
+/// `source`.
 std::vector<Vec3> comparison_eyes(const Surface& solid, VisibilitySource& source, int count,
                                   const ExtractOptions& options);
 

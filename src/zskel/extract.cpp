@@ -63,7 +63,8 @@ struct SolidSkeleton {
     std::vector<double> radii;
 };
 
-SolidSkeleton extract_solid(const Solid& solid, const ExtractOptions& options, Backend& backend, Stages& stages) {
+SolidSkeleton extract_solid(const Solid& solid, const ExtractOptions& options, Backend& backend,
+                            Stages& stages) {
     SolidSkeleton out;
     const Surface& surface = solid.surface;
     stages.begin("seeds");
@@ -71,7 +72,8 @@ SolidSkeleton extract_solid(const Solid& solid, const ExtractOptions& options, B
     out.seeds = place_seeds(surface, query, options.seeds);
     stages.begin("settle");
     const auto source = backend.prepare(surface);
-    out.settled = settle_seeds(*source, out.seeds, options.steps, [&](double share) { stages.report(share); });
+    out.settled = settle_seeds(*source, out.seeds, options.steps,
+                               [&](double share) { stages.report(share); });
     stages.begin("cluster");
     std::vector<Vec3> ends;
     ends.reserve(out.settled.size());
@@ -89,7 +91,8 @@ SolidSkeleton extract_solid(const Solid& solid, const ExtractOptions& options, B
 class Assembler {
   public:
     Assembler(const Mesh& mesh, const PreparedSurface& prepared, ExtractResult& result)
-        : result_(result), surface_node_(prepared.surface.positions.size(), kNone),
+        : result_(result),
+          surface_node_(prepared.surface.positions.size(), kNone),
           input_vertex_(prepared.surface.positions.size(), kNone) {
         for (std::size_t v = mesh.positions.size(); v-- > 0;) {
             const std::uint32_t place = prepared.surface_vertex[v];
@@ -127,8 +130,8 @@ class Assembler {
     }
 
   private:
-    void add_seed(const Similarity& to_world, const Seed& seed, SettledSeed& settled, std::uint32_t node,
-                  std::uint32_t vertex) {
+    void add_seed(const Similarity& to_world, const Seed& seed, SettledSeed& settled,
+                  std::uint32_t node, std::uint32_t vertex) {
         SeedReport report;
         report.vertex = vertex;
         report.node = node;
@@ -157,15 +160,16 @@ void add_warnings(const Mesh& mesh, const std::vector<Solid>& solids, ExtractRes
     for (const Solid& solid : solids) open += solid.is_closed ? 0 : 1;
     if (open > 0) {
         result.warnings.push_back(
-            fmt::format("{} of {} parts are not closed: seeds may drift out through openings", open, solids.size()));
+            fmt::format("{} of {} parts are not closed: seeds may drift out through openings", open,
+                        solids.size()));
     }
     std::array<std::size_t, 4> states{};
     for (const SeedReport& seed : result.seeds) ++states[static_cast<std::size_t>(seed.state)];
     for (const SeedState state : {SeedState::StepLimit, SeedState::LeftMesh, SeedState::NoHits}) {
         const std::size_t count = states[static_cast<std::size_t>(state)];
         if (count > 0) {
-            result.warnings.push_back(
-                fmt::format("{} of {} seeds ended as {}", count, result.seeds.size(), name_of(state)));
+            result.warnings.push_back(fmt::format("{} of {} seeds ended as {}", count,
+                                                  result.seeds.size(), name_of(state)));
         }
     }
     for (const std::string& warning : result.warnings) log_warning("{}: {}", mesh.name, warning);
@@ -178,7 +182,9 @@ Method parse_method(std::string_view name) {
     throw UsageError(fmt::format("unknown method '{}': paper", name));
 }
 
-std::string_view name_of(Method) { return "paper"; }
+std::string_view name_of(Method) {
+    return "paper";
+}
 
 double ExtractStatistics::seconds() const {
     return std::accumulate(stages.begin(), stages.end(), 0.0,

@@ -28,7 +28,8 @@ struct ExtractOptions {
     SeedOptions seeds;
     PaperStepOptions steps;
     ClusterOptions clusters;
-    /// Told the stage and its share done; false stops the work (`Cancelled` is thrown). May be empty.
+    /// Told the stage and its share done; false stops the work (`Cancelled` is thrown). May be
+    /// empty.
     std::function<bool(std::string_view stage, double share)> progress;
 };
 
@@ -40,14 +41,15 @@ class Cancelled : public Error {
 
 /// One seed's story, in model space.
 struct SeedReport {
-    std::uint32_t vertex = 0;            ///< an input vertex at the seed's place (the first of those welded there)
+    std::uint32_t vertex =
+        0;  ///< an input vertex at the seed's place (the first of those welded there)
     std::uint32_t node = 0;
     DVec3 start{0.0};
     DVec3 end{0.0};
     SeedState state = SeedState::Converged;
     std::uint32_t steps = 0;
     std::uint32_t evaluations = 0;
-    std::vector<DVec3> path;             ///< start to end; empty unless paths are kept
+    std::vector<DVec3> path;  ///< start to end; empty unless paths are kept
 };
 
 struct StageTime {
@@ -56,13 +58,14 @@ struct StageTime {
 };
 
 struct ExtractStatistics {
-    std::size_t faces = 0;               ///< triangles used
-    std::size_t vertices = 0;            ///< places used
+    std::size_t faces = 0;     ///< triangles used
+    std::size_t vertices = 0;  ///< places used
     std::size_t solids = 0;
     std::size_t cavities = 0;
     std::size_t seeds = 0;
     std::size_t evaluations = 0;
-    std::size_t forest_edges = 0;        ///< edges that are left when every cycle is opened at its longest
+    std::size_t forest_edges =
+        0;  ///< edges that are left when every cycle is opened at its longest
     std::vector<StageTime> stages;
     double seconds() const;
 };

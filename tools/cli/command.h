@@ -11,10 +11,10 @@ namespace zskel::cli {
 
 /// What every subcommand can read: the options before it.
 struct Common {
-    int verbosity = 0;            ///< -q: -1; -v: 1; -vv: 2
+    int verbosity = 0;  ///< -q: -1; -v: 1; -vv: 2
     std::string log_format = "text";
     int threads = 0;
-    std::string command;          ///< the whole line as typed
+    std::string command;  ///< the whole line as typed
 };
 
 /// Each adds its subcommand to the program; when that is chosen, `run` is set to what it does.

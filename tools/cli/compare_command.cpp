@@ -24,12 +24,17 @@ Json to_json(const Difference& d) {
     return {{"median", d.median}, {"p999", d.p999}, {"worst", d.worst}, {"texels", d.count}};
 }
 
-Json to_json(const DVec3& p) { return Json::array({p.x, p.y, p.z}); }
+Json to_json(const DVec3& p) {
+    return Json::array({p.x, p.y, p.z});
+}
 
 Json to_json(const SourceComparison& c, const ComparisonBounds& bounds) {
     return {{"eyes", c.eyes},
             {"texels", c.texels},
-            {"relative_distance", {{"inner", to_json(c.inner)}, {"silhouette", to_json(c.silhouette)}, {"all", to_json(c.all)}}},
+            {"relative_distance",
+             {{"inner", to_json(c.inner)},
+              {"silhouette", to_json(c.silhouette)},
+              {"all", to_json(c.all)}}},
             {"worst_inner",
              {{"eye", to_json(c.worst_inner.eye_model)},
               {"direction", to_json(c.worst_inner.direction)},
@@ -37,33 +42,45 @@ Json to_json(const SourceComparison& c, const ComparisonBounds& bounds) {
               {"reference_world", c.worst_inner.reference}}},
             {"one_sided_texels", c.one_sided},
             {"id_agreement", {{"inner", c.id_agreement_inner}, {"all", c.id_agreement_all}}},
-            {"force_error", {{"median", c.force_error_median}, {"p95", c.force_error_p95}, {"worst", c.force_error_worst}}},
-            {"force_angle_deg", {{"median", c.angle_median_deg}, {"worst", c.angle_worst_deg}, {"eyes", c.angles}}},
-            {"bounds", {{"texel_median", bounds.texel_median}, {"inner_p999", bounds.inner_p999}, {"force_p95", bounds.force_p95}}},
+            {"force_error",
+             {{"median", c.force_error_median},
+              {"p95", c.force_error_p95},
+              {"worst", c.force_error_worst}}},
+            {"force_angle_deg",
+             {{"median", c.angle_median_deg}, {"worst", c.angle_worst_deg}, {"eyes", c.angles}}},
+            {"bounds",
+             {{"texel_median", bounds.texel_median},
+              {"inner_p999", bounds.inner_p999},
+              {"force_p95", bounds.force_p95}}},
             {"within_bounds", is_within(c, bounds)}};
 }
 
 std::string to_text(const SourceComparison& c, const ComparisonBounds& bounds) {
     const auto line = [](const char* name, const Difference& d) {
-        return fmt::format("  {:<12} {:>9} texels   median {:.2e}   99.9 % {:.2e}   worst {:.2e}\n", name, d.count,
-                           d.median, d.p999, d.worst);
+        return fmt::format("  {:<12} {:>9} texels   median {:.2e}   99.9 % {:.2e}   worst {:.2e}\n",
+                           name, d.count, d.median, d.p999, d.worst);
     };
-    std::string text = fmt::format("{} eyes, {} texels; relative difference of distances:\n", c.eyes, c.texels);
+    std::string text =
+        fmt::format("{} eyes, {} texels; relative difference of distances:\n", c.eyes, c.texels);
     text += line("inner", c.inner) + line("silhouette", c.silhouette) + line("all", c.all);
-    text += fmt::format("  worst inner: eye {:.6g} {:.6g} {:.6g}, direction {:.4f} {:.4f} {:.4f}: {:.6g} against {:.6g}\n",
-                        c.worst_inner.eye_model.x, c.worst_inner.eye_model.y, c.worst_inner.eye_model.z,
-                        c.worst_inner.direction.x, c.worst_inner.direction.y, c.worst_inner.direction.z,
-                        c.worst_inner.distance, c.worst_inner.reference);
+    text += fmt::format(
+        "  worst inner: eye {:.6g} {:.6g} {:.6g}, direction {:.4f} {:.4f} {:.4f}: {:.6g} against "
+        "{:.6g}\n",
+        c.worst_inner.eye_model.x, c.worst_inner.eye_model.y, c.worst_inner.eye_model.z,
+        c.worst_inner.direction.x, c.worst_inner.direction.y, c.worst_inner.direction.z,
+        c.worst_inner.distance, c.worst_inner.reference);
     text += fmt::format("texels that only one of the two hits: {}\n", c.one_sided);
-    text += fmt::format("same triangle: {:.4f} % of inner texels, {:.4f} % of all\n", 100 * c.id_agreement_inner,
-                        100 * c.id_agreement_all);
+    text += fmt::format("same triangle: {:.4f} % of inner texels, {:.4f} % of all\n",
+                        100 * c.id_agreement_inner, 100 * c.id_agreement_all);
     text += fmt::format("force, over the mean of 1/r: median {:.2e}   95 % {:.2e}   worst {:.2e}\n",
                         c.force_error_median, c.force_error_p95, c.force_error_worst);
-    text += fmt::format("angle, at the {} eyes where it means something: median {:.4f}   worst {:.4f} degrees\n", c.angles,
-                        c.angle_median_deg, c.angle_worst_deg);
-    text += fmt::format("{} (bounds: texel median {:.0e}, 99.9 % of inner texels {:.0e}, 95 % of forces {:.0e})\n",
-                        is_within(c, bounds) ? "within bounds" : "NOT within bounds", bounds.texel_median,
-                        bounds.inner_p999, bounds.force_p95);
+    text += fmt::format(
+        "angle, at the {} eyes where it means something: median {:.4f}   worst {:.4f} degrees\n",
+        c.angles, c.angle_median_deg, c.angle_worst_deg);
+    text += fmt::format(
+        "{} (bounds: texel median {:.0e}, 99.9 % of inner texels {:.0e}, 95 % of forces {:.0e})\n",
+        is_within(c, bounds) ? "within bounds" : "NOT within bounds", bounds.texel_median,
+        bounds.inner_p999, bounds.force_p95);
     return text;
 }
 
@@ -82,7 +99,8 @@ ExitCode compare(const Arguments& arguments) {
         out["reference"] = reference->info().name;
         print(out.dump(2) + "\n");
     } else {
-        print(fmt::format("{}: {} against {}\n", arguments.model, tested->info().name, reference->info().name) +
+        print(fmt::format("{}: {} against {}\n", arguments.model, tested->info().name,
+                          reference->info().name) +
               to_text(c, bounds));
     }
     return is_within(c, bounds) ? ExitCode::Ok : ExitCode::Check;
@@ -91,18 +109,22 @@ ExitCode compare(const Arguments& arguments) {
 }  // namespace
 
 void add_compare_command(CLI::App& app, const Common&, Run& run) {
-    CLI::App* command =
-        app.add_subcommand("compare", "Measure one backend's cube maps against another's; exit 6 when out of bounds");
+    CLI::App* command = app.add_subcommand(
+        "compare", "Measure one backend's cube maps against another's; exit 6 when out of bounds");
     auto arguments = std::make_shared<Arguments>();
-    command->add_option("model", arguments->model, "OBJ, OFF, PLY or STL; - reads standard input")->required();
-    command->add_option("--eyes", arguments->eyes, "About this many eyes: starts, mid-paths and ends of seeds")
+    command->add_option("model", arguments->model, "OBJ, OFF, PLY or STL; - reads standard input")
+        ->required();
+    command
+        ->add_option("--eyes", arguments->eyes,
+                     "About this many eyes: starts, mid-paths and ends of seeds")
         ->capture_default_str()
         ->check(CLI::PositiveNumber);
     command->add_flag("--json", arguments->as_json, "Print JSON");
     add_backend_options(*command, arguments->tested);
     command
         ->add_option_function<std::string>(
-            "--against", [arguments](const std::string& name) { arguments->reference = parse_backend(name); },
+            "--against",
+            [arguments](const std::string& name) { arguments->reference = parse_backend(name); },
             "The backend that is taken for the truth [ray]")
         ->type_name("NAME");
     command->callback([&run, arguments] { run = [arguments] { return compare(*arguments); }; });

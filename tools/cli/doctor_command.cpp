@@ -17,7 +17,8 @@ std::string advice(const gl::Diagnosis& found) {
     }
     if (found.candidate == "EGL") return "Debian: apt-get install libegl1 libgl1-mesa-dri";
     if (found.candidate.starts_with("EGL hardware")) {
-        return "check the driver's EGL files; in a container the GPU needs the 'graphics' capability";
+        return "check the driver's EGL files; in a container the GPU needs the 'graphics' "
+               "capability";
     }
     return "Debian: apt-get install libegl1 libgl1-mesa-dri";
 }
@@ -42,29 +43,36 @@ Json to_json(const gl::Diagnosis& found) {
 
 std::string to_text(const gl::Diagnosis& found) {
     if (!found.usable) {
-        return fmt::format("fails  {}\n       {}\n       {}\n", found.candidate, found.reason, advice(found));
+        return fmt::format("fails  {}\n       {}\n       {}\n", found.candidate, found.reason,
+                           advice(found));
     }
     const gl::ContextInfo& info = found.info;
-    return fmt::format("works  {}: {}, {}\n       {}; {} layers, {} px, {} samples; opened in {:.0f} ms\n",
-                       found.candidate, info.vendor, info.renderer, info.version, info.max_layers,
-                       info.max_texture_px, info.max_samples, info.seconds * 1e3);
+    return fmt::format(
+        "works  {}: {}, {}\n       {}; {} layers, {} px, {} samples; opened in {:.0f} ms\n",
+        found.candidate, info.vendor, info.renderer, info.version, info.max_layers,
+        info.max_texture_px, info.max_samples, info.seconds * 1e3);
 }
 
 ExitCode diagnose(bool as_json) {
     const std::vector<gl::Diagnosis> all = gl::diagnose_contexts({});
-    const auto first = std::find_if(all.begin(), all.end(), [](const gl::Diagnosis& d) { return d.usable; });
-    const std::string taken = first == all.end() ? "ray" : std::string(gl::name_of(first->info.kind));
+    const auto first =
+        std::find_if(all.begin(), all.end(), [](const gl::Diagnosis& d) { return d.usable; });
+    const std::string taken =
+        first == all.end() ? "ray" : std::string(gl::name_of(first->info.kind));
     if (as_json) {
         Json candidates = Json::array();
         for (const gl::Diagnosis& found : all) candidates.push_back(to_json(found));
-        const Json out{{"program_version", ZSKEL_VERSION},
-                       {"needs", {{"opengl", "4.5 core"}, {"extension", "GL_ARB_shader_viewport_layer_array"}}},
-                       {"candidates", candidates},
-                       {"auto_takes", taken}};
+        const Json out{
+            {"program_version", ZSKEL_VERSION},
+            {"needs",
+             {{"opengl", "4.5 core"}, {"extension", "GL_ARB_shader_viewport_layer_array"}}},
+            {"candidates", candidates},
+            {"auto_takes", taken}};
         print(out.dump(2) + "\n");
         return ExitCode::Ok;
     }
-    std::string text = "GL contexts (OpenGL 4.5 core with GL_ARB_shader_viewport_layer_array is needed):\n";
+    std::string text =
+        "GL contexts (OpenGL 4.5 core with GL_ARB_shader_viewport_layer_array is needed):\n";
     for (const gl::Diagnosis& found : all) text += to_text(found);
     text += fmt::format("Rays (Embree) always work.\n--backend auto takes: {}\n", taken);
     print(text);
@@ -74,7 +82,8 @@ ExitCode diagnose(bool as_json) {
 }  // namespace
 
 void add_doctor_command(CLI::App& app, const Common&, Run& run) {
-    CLI::App* command = app.add_subcommand("doctor", "Say which backends work here, and why others do not");
+    CLI::App* command =
+        app.add_subcommand("doctor", "Say which backends work here, and why others do not");
     auto as_json = std::make_shared<bool>(false);
     command->add_flag("--json", *as_json, "Print JSON");
     command->callback([&run, as_json] { run = [as_json] { return diagnose(*as_json); }; });

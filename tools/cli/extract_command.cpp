@@ -34,8 +34,9 @@ class ProgressBar {
     }
     bool show(std::string_view stage, double share) {
         if (!shown_) return true;
-        const std::string line = fmt::format("\r\033[K{:<8} {:3.0f} % [{:<40}]", stage, share * 100,
-                                             std::string(static_cast<std::size_t>(share * 40), '#'));
+        const std::string line =
+            fmt::format("\r\033[K{:<8} {:3.0f} % [{:<40}]", stage, share * 100,
+                        std::string(static_cast<std::size_t>(share * 40), '#'));
         std::fputs(line.c_str(), stderr);
         drawn_ = true;
         return true;
@@ -49,18 +50,23 @@ class ProgressBar {
 // A row of the paper's Table 1, with our own evaluations beside it.
 std::string stats_text(const std::string& model, const ExtractResult& result) {
     const ExtractStatistics& s = result.statistics;
-    return fmt::format("{:<20} {:>8} {:>8} {:>10} {:>10} {:>10} {:>12}\n{:<20} {:>8} {:>8} {:>10.2f} {:>10} {:>10} {:>12}\n",
-                       "Model", "Faces", "Vertices", "Seconds", "Nodes", "Edges", "Evaluations",
-                       model.substr(model.find_last_of('/') + 1), s.faces, s.vertices, s.seconds(),
-                       result.graph.nodes.size(), result.graph.edges.size(), s.evaluations);
+    return fmt::format(
+        "{:<20} {:>8} {:>8} {:>10} {:>10} {:>10} {:>12}\n{:<20} {:>8} {:>8} {:>10.2f} {:>10} "
+        "{:>10} {:>12}\n",
+        "Model", "Faces", "Vertices", "Seconds", "Nodes", "Edges", "Evaluations",
+        model.substr(model.find_last_of('/') + 1), s.faces, s.vertices, s.seconds(),
+        result.graph.nodes.size(), result.graph.edges.size(), s.evaluations);
 }
 
 bool ends_with(const std::string& text, std::string_view end) {
-    return text.size() >= end.size() && text.compare(text.size() - end.size(), end.size(), end) == 0;
+    return text.size() >= end.size() &&
+           text.compare(text.size() - end.size(), end.size(), end) == 0;
 }
 
-std::string skeleton_text(const Arguments& arguments, const ExtractResult& result, const Provenance& provenance) {
-    const bool obj = arguments.format == "obj" || (arguments.format.empty() && ends_with(arguments.output, ".obj"));
+std::string skeleton_text(const Arguments& arguments, const ExtractResult& result,
+                          const Provenance& provenance) {
+    const bool obj = arguments.format == "obj" ||
+                     (arguments.format.empty() && ends_with(arguments.output, ".obj"));
     return obj ? skeleton_obj(result.graph) : skeleton_json(result, provenance, arguments.parts);
 }
 
@@ -72,14 +78,17 @@ ExitCode extract(const Arguments& given, const Common& common) {
     ExtractResult result;
     {
         ProgressBar bar(common.verbosity >= 0);
-        arguments.extract.progress = [&](std::string_view stage, double share) { return bar.show(stage, share); };
+        arguments.extract.progress = [&](std::string_view stage, double share) {
+            return bar.show(stage, share);
+        };
         result = extract_skeleton(mesh, arguments.extract, *backend);
     }
-    const Provenance provenance{arguments.model, mesh.hash, common.command, arguments.extract, arguments.backend, backend->info()};
+    const Provenance provenance{arguments.model,   mesh.hash,         common.command,
+                                arguments.extract, arguments.backend, backend->info()};
     write_output_text(arguments.output, skeleton_text(arguments, result, provenance));
-    log_info("{} nodes, {} edges; {} evaluations of {} seeds in {:.2f} s by {}", result.graph.nodes.size(),
-             result.graph.edges.size(), result.statistics.evaluations, result.statistics.seeds,
-             result.statistics.seconds(), backend->info().name);
+    log_info("{} nodes, {} edges; {} evaluations of {} seeds in {:.2f} s by {}",
+             result.graph.nodes.size(), result.graph.edges.size(), result.statistics.evaluations,
+             result.statistics.seeds, result.statistics.seconds(), backend->info().name);
     if (arguments.stats) std::fputs(stats_text(arguments.model, result).c_str(), stderr);
     return ExitCode::Ok;
 }
@@ -89,26 +98,50 @@ ExitCode extract(const Arguments& given, const Common& common) {
 void add_extract_command(CLI::App& app, const Common& common, Run& run) {
     CLI::App* command = app.add_subcommand("extract", "Extract the curve skeleton of a mesh");
     auto arguments = std::make_shared<Arguments>();
-    command->add_option("model", arguments->model, "OBJ, OFF, PLY or STL; - reads standard input")->required();
-    command->add_option("-o,--output", arguments->output, "Where the skeleton goes; - writes standard output")
+    command->add_option("model", arguments->model, "OBJ, OFF, PLY or STL; - reads standard input")
+        ->required();
+    command
+        ->add_option("-o,--output", arguments->output,
+                     "Where the skeleton goes; - writes standard output")
         ->capture_default_str();
-    command->add_option("--format", arguments->format, "json or obj; by default what the output's name says")
+    command
+        ->add_option("--format", arguments->format,
+                     "json or obj; by default what the output's name says")
         ->check(CLI::IsMember({"json", "obj"}));
     command
         ->add_option_function<std::string>(
-            "--method", [arguments](const std::string& name) { arguments->extract.method = parse_method(name); },
+            "--method",
+            [arguments](const std::string& name) {
+                arguments->extract.method = parse_method(name);
+            },
             "paper: the published method")
         ->type_name("NAME");
     add_backend_options(*command, arguments->backend);
     ExtractOptions& o = arguments->extract;
-    command->add_option("--step", o.steps.step_world, "Length of a step, in the unit cube")->capture_default_str()->check(CLI::PositiveNumber);
-    command->add_option("--max-steps", o.steps.max_steps, "Steps after which a seed is stopped")->capture_default_str()->check(CLI::PositiveNumber);
-    command->add_option("--offset", o.seeds.offset_world, "How far inside the surface seeds start, in the unit cube")->capture_default_str()->check(CLI::PositiveNumber);
-    command->add_option("--cluster", o.clusters.range_world, "Range within which end points become one node, in the unit cube")->capture_default_str()->check(CLI::NonNegativeNumber);
-    command->add_flag("--with-seeds", arguments->parts.seeds, "Add every seed's start, end, state and steps to the JSON");
+    command->add_option("--step", o.steps.step_world, "Length of a step, in the unit cube")
+        ->capture_default_str()
+        ->check(CLI::PositiveNumber);
+    command->add_option("--max-steps", o.steps.max_steps, "Steps after which a seed is stopped")
+        ->capture_default_str()
+        ->check(CLI::PositiveNumber);
+    command
+        ->add_option("--offset", o.seeds.offset_world,
+                     "How far inside the surface seeds start, in the unit cube")
+        ->capture_default_str()
+        ->check(CLI::PositiveNumber);
+    command
+        ->add_option("--cluster", o.clusters.range_world,
+                     "Range within which end points become one node, in the unit cube")
+        ->capture_default_str()
+        ->check(CLI::NonNegativeNumber);
+    command->add_flag("--with-seeds", arguments->parts.seeds,
+                      "Add every seed's start, end, state and steps to the JSON");
     command->add_flag("--with-paths", arguments->parts.paths, "Add every seed's path too");
-    command->add_flag("--stats", arguments->stats, "Print a row of the paper's Table 1 to standard error");
-    command->callback([&run, &common, arguments] { run = [&common, arguments] { return extract(*arguments, common); }; });
+    command->add_flag("--stats", arguments->stats,
+                      "Print a row of the paper's Table 1 to standard error");
+    command->callback([&run, &common, arguments] {
+        run = [&common, arguments] { return extract(*arguments, common); };
+    });
 }
 
 }  // namespace zskel::cli

@@ -1,4 +1,5 @@
-// The command-line program: reads the line, sets up the log, runs one subcommand, maps errors to exit codes.
+// The command-line program: reads the line, sets up the log, runs one subcommand, maps errors to
+// exit codes.
 #include <malloc.h>
 #include <unistd.h>
 
@@ -48,18 +49,21 @@ int run_program(int argc, char** argv) {
     app.footer(kFooter);
     app.fallthrough();
     Common common;
-    for (int i = 0; i < argc; ++i) common.command += (i == 0 ? "" : " ") + std::string(i == 0 ? "zskel" : argv[i]);
-    app.add_flag_function("-q,--quiet", [&](std::int64_t) { common.verbosity = -1; }, "Only errors");
-    app.add_flag_function("-v,--verbose", [&](std::int64_t count) { common.verbosity = static_cast<int>(count); },
-                          "Say what is done; twice: say more");
+    for (int i = 0; i < argc; ++i)
+        common.command += (i == 0 ? "" : " ") + std::string(i == 0 ? "zskel" : argv[i]);
+    app.add_flag_function(
+        "-q,--quiet", [&](std::int64_t) { common.verbosity = -1; }, "Only errors");
+    app.add_flag_function(
+        "-v,--verbose", [&](std::int64_t count) { common.verbosity = static_cast<int>(count); },
+        "Say what is done; twice: say more");
     app.add_option("--log-format", common.log_format, "text, or json: one object a line")
         ->check(CLI::IsMember({"text", "json"}));
-    app.add_option("--threads", common.threads, "Use at most this many threads")->check(CLI::NonNegativeNumber);
+    app.add_option("--threads", common.threads, "Use at most this many threads")
+        ->check(CLI::NonNegativeNumber);
     Run run;
     add_extract_command(app, common, run);
 
-
-
+    add_check_command(app, common, run);
     add_compare_command(app, common, run);
     add_doctor_command(app, common, run);
     try {
@@ -86,6 +90,7 @@ int main(int argc, char** argv) {
     ::mallopt(M_TRIM_THRESHOLD, 1 << 30);
     std::signal(SIGINT, zskel::cli::stop_cleanly);
     std::signal(SIGTERM, zskel::cli::stop_cleanly);
-    std::signal(SIGPIPE, SIG_IGN);  // a closed pipe is then an error of the write, with its exit code
+    std::signal(SIGPIPE,
+                SIG_IGN);  // a closed pipe is then an error of the write, with its exit code
     return zskel::cli::run_program(argc, argv);
 }

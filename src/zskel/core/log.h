@@ -10,7 +10,8 @@ namespace zskel {
 enum class LogLevel { Debug, Info, Warning, Error, Off };
 enum class LogFormat { Text, Json };
 
-/// Sets what goes to standard error, and in which form (JSON: one object a line). Default: warnings, text.
+/// Sets what goes to standard error, and in which form (JSON: one object a line). Default:
+/// warnings, text.
 void set_log(LogLevel level, LogFormat format);
 
 /// Writes one line at `level` to standard error.

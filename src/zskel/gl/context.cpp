@@ -25,13 +25,20 @@ namespace {
 
 std::string_view error_name(GLenum error) {
     switch (error) {
-        case GL_INVALID_ENUM: return "GL_INVALID_ENUM";
-        case GL_INVALID_VALUE: return "GL_INVALID_VALUE";
-        case GL_INVALID_OPERATION: return "GL_INVALID_OPERATION";
-        case GL_INVALID_FRAMEBUFFER_OPERATION: return "GL_INVALID_FRAMEBUFFER_OPERATION";
-        case GL_OUT_OF_MEMORY: return "GL_OUT_OF_MEMORY";
-        case GL_CONTEXT_LOST: return "GL_CONTEXT_LOST";
-        default: return "an unknown GL error";
+        case GL_INVALID_ENUM:
+            return "GL_INVALID_ENUM";
+        case GL_INVALID_VALUE:
+            return "GL_INVALID_VALUE";
+        case GL_INVALID_OPERATION:
+            return "GL_INVALID_OPERATION";
+        case GL_INVALID_FRAMEBUFFER_OPERATION:
+            return "GL_INVALID_FRAMEBUFFER_OPERATION";
+        case GL_OUT_OF_MEMORY:
+            return "GL_OUT_OF_MEMORY";
+        case GL_CONTEXT_LOST:
+            return "GL_CONTEXT_LOST";
+        default:
+            return "an unknown GL error";
     }
 }
 
@@ -62,11 +69,13 @@ bool has_extension(const Api& gl, std::string_view wanted) {
     return false;
 }
 
-// A known triangle: it covers layer 1 of two at depth_axial 4, and a nearer one the lower half of it.
+// A known triangle: it covers layer 1 of two at depth_axial 4, and a nearer one the lower half of
+// it.
 void probe(const Api& gl) {
     constexpr int kPx = 4;
-    const GLuint program = build_program(gl, {{GL_VERTEX_SHADER, "probe.vert", glsl::kProbeVert},
-                                              {GL_FRAGMENT_SHADER, "depth.frag", glsl::kDepthFrag}});
+    const GLuint program =
+        build_program(gl, {{GL_VERTEX_SHADER, "probe.vert", glsl::kProbeVert},
+                           {GL_FRAGMENT_SHADER, "depth.frag", glsl::kDepthFrag}});
     GLuint empty = 0;
     gl.CreateVertexArrays(1, &empty);
     DepthTarget target(gl, kPx, 2);
@@ -88,9 +97,10 @@ void probe(const Api& gl) {
         const float expected = !drawn ? 0.0f : lower ? 0.5f : 0.25f;
         const std::uint32_t expected_id = !drawn ? 0xFFFFFFFFu : lower ? 1u : 0u;
         if (std::abs(depth[i] - expected) > 1e-6f || id[i] != expected_id) {
-            throw GlError(fmt::format(
-                "the probe's texel {} reads depth {} and id {}; it should be {} and {}: this driver cannot be trusted",
-                i, depth[i], id[i], expected, expected_id));
+            throw GlError(
+                fmt::format("the probe's texel {} reads depth {} and id {}; it should be {} and "
+                            "{}: this driver cannot be trusted",
+                            i, depth[i], id[i], expected, expected_id));
         }
     }
 }
@@ -150,7 +160,8 @@ class ThreadContext : public Context {
         Api api;
         attempt([&] {
             const auto start = std::chrono::steady_clock::now();
-            native = candidate.kind == ContextKind::Osmesa ? make_osmesa_context() : make_egl_context(candidate);
+            native = candidate.kind == ContextKind::Osmesa ? make_osmesa_context()
+                                                           : make_egl_context(candidate);
             open(*native, api, candidate);
             const std::chrono::duration<double> passed = std::chrono::steady_clock::now() - start;
             info_.seconds = passed.count();
@@ -183,10 +194,12 @@ class ThreadContext : public Context {
         api.GetIntegerv(GL_MAJOR_VERSION, &major);
         api.GetIntegerv(GL_MINOR_VERSION, &minor);
         if (major * 10 + minor < 45) {
-            throw GlError(fmt::format("it gives OpenGL {}.{}; 4.5 is needed ({})", major, minor, info_.renderer));
+            throw GlError(fmt::format("it gives OpenGL {}.{}; 4.5 is needed ({})", major, minor,
+                                      info_.renderer));
         }
         if (!has_extension(api, "GL_ARB_shader_viewport_layer_array")) {
-            throw GlError(fmt::format("{} lacks GL_ARB_shader_viewport_layer_array", info_.renderer));
+            throw GlError(
+                fmt::format("{} lacks GL_ARB_shader_viewport_layer_array", info_.renderer));
         }
         api.Enable(GL_DEBUG_OUTPUT);
         api.Enable(GL_DEBUG_OUTPUT_SYNCHRONOUS);
@@ -195,12 +208,13 @@ class ThreadContext : public Context {
         check(api);
     }
 
-    static void APIENTRY record(GLenum, GLenum type, GLuint, GLenum, GLsizei length, const GLchar* text,
-                                const void* user) {
+    static void APIENTRY record(GLenum, GLenum type, GLuint, GLenum, GLsizei length,
+                                const GLchar* text, const void* user) {
         if (type != GL_DEBUG_TYPE_ERROR) return;
         auto* self = const_cast<ThreadContext*>(static_cast<const ThreadContext*>(user));
         const std::size_t size = length < 0 ? std::strlen(text) : static_cast<std::size_t>(length);
-        if (self->said_.size() < 4096) self->said_ += fmt::format(" [{}]", std::string_view(text, size));
+        if (self->said_.size() < 4096)
+            self->said_ += fmt::format(" [{}]", std::string_view(text, size));
     }
 
     void check(const Api& api) {
@@ -208,7 +222,8 @@ class ThreadContext : public Context {
         if (error == GL_NO_ERROR) return;
         while (api.GetError() != GL_NO_ERROR && error != GL_CONTEXT_LOST) {
         }
-        throw GlError(fmt::format("{} failed with {} on {}{}", stage_, error_name(error), info_.renderer, said_));
+        throw GlError(fmt::format("{} failed with {} on {}{}", stage_, error_name(error),
+                                  info_.renderer, said_));
     }
 
     template <typename Work>
@@ -240,23 +255,29 @@ bool wanted(const ContextRequest& request, const Candidate& candidate) {
         case ContextKind::EglHardware:
             return request.hardware && (request.gpu < 0 || request.gpu == candidate.device);
         case ContextKind::EglSoftware:
-        case ContextKind::EglSurfaceless: return request.software && request.gpu < 0;
-        case ContextKind::Osmesa: return request.osmesa && request.gpu < 0;
+        case ContextKind::EglSurfaceless:
+            return request.software && request.gpu < 0;
+        case ContextKind::Osmesa:
+            return request.osmesa && request.gpu < 0;
     }
     return false;
 }
 
-std::vector<Candidate> list_candidates(const ContextRequest& request, std::vector<FailedAttempt>& failed) {
+std::vector<Candidate> list_candidates(const ContextRequest& request,
+                                       std::vector<FailedAttempt>& failed) {
     std::vector<Candidate> all;
     if (request.hardware || request.software) {
         all = list_egl_devices(failed);
-        std::stable_sort(all.begin(), all.end(), [](const Candidate& l, const Candidate& r) { return l.kind < r.kind; });
-        if (failed.empty()) all.push_back({ContextKind::EglSurfaceless, -1, "EGL surfaceless platform"});
+        std::stable_sort(all.begin(), all.end(),
+                         [](const Candidate& l, const Candidate& r) { return l.kind < r.kind; });
+        if (failed.empty())
+            all.push_back({ContextKind::EglSurfaceless, -1, "EGL surfaceless platform"});
     }
     all.push_back({ContextKind::Osmesa, -1, "OSMesa"});
     std::erase_if(all, [&](const Candidate& candidate) { return !wanted(request, candidate); });
     if (request.gpu >= 0 && all.empty()) {
-        failed.push_back({fmt::format("EGL hardware device {}", request.gpu), "EGL lists no such device"});
+        failed.push_back(
+            {fmt::format("EGL hardware device {}", request.gpu), "EGL lists no such device"});
     }
     return all;
 }
@@ -265,15 +286,20 @@ std::vector<Candidate> list_candidates(const ContextRequest& request, std::vecto
 
 std::string_view name_of(ContextKind kind) {
     switch (kind) {
-        case ContextKind::EglHardware: return "egl-hardware";
-        case ContextKind::EglSoftware: return "egl-software";
-        case ContextKind::EglSurfaceless: return "egl-surfaceless";
-        case ContextKind::Osmesa: return "osmesa";
+        case ContextKind::EglHardware:
+            return "egl-hardware";
+        case ContextKind::EglSoftware:
+            return "egl-software";
+        case ContextKind::EglSurfaceless:
+            return "egl-surfaceless";
+        case ContextKind::Osmesa:
+            return "osmesa";
     }
     return "";
 }
 
-void Context::release(std::string_view stage, const std::function<void(const Api&)>& work) noexcept {
+void Context::release(std::string_view stage,
+                      const std::function<void(const Api&)>& work) noexcept {
     try {
         run(stage, work);
     } catch (const std::exception& error) {
@@ -281,7 +307,8 @@ void Context::release(std::string_view stage, const std::function<void(const Api
     }
 }
 
-std::unique_ptr<Context> open_context(const ContextRequest& request, std::vector<FailedAttempt>& failed) {
+std::unique_ptr<Context> open_context(const ContextRequest& request,
+                                      std::vector<FailedAttempt>& failed) {
     for (const Candidate& candidate : list_candidates(request, failed)) {
         try {
             auto context = std::make_unique<ThreadContext>(candidate);
@@ -300,7 +327,8 @@ std::vector<Diagnosis> diagnose_contexts(const ContextRequest& request) {
     std::vector<FailedAttempt> failed;
     std::vector<Diagnosis> found;
     const std::vector<Candidate> candidates = list_candidates(request, failed);
-    for (const FailedAttempt& attempt : failed) found.push_back({attempt.candidate, false, {}, attempt.reason});
+    for (const FailedAttempt& attempt : failed)
+        found.push_back({attempt.candidate, false, {}, attempt.reason});
     for (const Candidate& candidate : candidates) {
         try {
             found.push_back({candidate.name, true, ThreadContext(candidate).info(), ""});

@@ -17,14 +17,14 @@ std::string_view name_of(ContextKind kind);
 /// What a context says of itself.
 struct ContextInfo {
     ContextKind kind = ContextKind::EglSurfaceless;
-    int device = -1;                ///< number among the devices of its kind; -1 where there are none
+    int device = -1;  ///< number among the devices of its kind; -1 where there are none
     std::string vendor;
     std::string renderer;
     std::string version;
-    int max_layers = 0;             ///< GL_MAX_ARRAY_TEXTURE_LAYERS
-    int max_texture_px = 0;         ///< GL_MAX_TEXTURE_SIZE
-    int max_samples = 0;            ///< GL_MAX_SAMPLES
-    double seconds = 0.0;           ///< from the first call to the probe's right answer
+    int max_layers = 0;      ///< GL_MAX_ARRAY_TEXTURE_LAYERS
+    int max_texture_px = 0;  ///< GL_MAX_TEXTURE_SIZE
+    int max_samples = 0;     ///< GL_MAX_SAMPLES
+    double seconds = 0.0;    ///< from the first call to the probe's right answer
 };
 
 /// A candidate that gave no context, and why.
@@ -36,19 +36,21 @@ struct FailedAttempt {
 /// Which candidates to try.
 struct ContextRequest {
     bool hardware = true;
-    bool software = true;           ///< the EGL software device and the surfaceless platform
+    bool software = true;  ///< the EGL software device and the surfaceless platform
     bool osmesa = true;
-    int gpu = -1;                   ///< number of the one hardware device to take; -1: the first that works
+    int gpu = -1;  ///< number of the one hardware device to take; -1: the first that works
 };
 
-/// An offscreen GL 4.5 core context on a thread of its own, so that no caller's context is ever touched.
+/// An offscreen GL 4.5 core context on a thread of its own, so that no caller's context is ever
+/// touched.
 class Context {
   public:
     virtual ~Context() = default;
 
     /// Runs `work` on the context's thread with the context current, and waits for it.
-    /// Exceptions of `work` come back here; a GL error that it leaves behind is thrown as GlError, naming
-    /// `stage` and what the driver's debug output said. Safe to call from any thread, one call at a time.
+    /// Exceptions of `work` come back here; a GL error that it leaves behind is thrown as GlError,
+    /// naming `stage` and what the driver's debug output said. Safe to call from any thread, one
+    /// call at a time.
     virtual void run(std::string_view stage, const std::function<void(const Api&)>& work) = 0;
 
     virtual const ContextInfo& info() const = 0;
@@ -61,7 +63,8 @@ class Context {
 /// and reads the right depth back.
 /// @param failed  receives every candidate that was tried before, with the reason.
 /// @return        null when none is usable.
-std::unique_ptr<Context> open_context(const ContextRequest& request, std::vector<FailedAttempt>& failed);
+std::unique_ptr<Context> open_context(const ContextRequest& request,
+                                      std::vector<FailedAttempt>& failed);
 
 /// Tries every candidate of the request on its own, for `zskel doctor`.
 struct Diagnosis {

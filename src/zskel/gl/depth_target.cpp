@@ -32,7 +32,8 @@ void DepthTarget::begin(const Api& gl) const {
     gl.ClearNamedFramebufferuiv(framebuffer_, GL_COLOR, 0, nothing);
 }
 
-void DepthTarget::read(const Api& gl, int layers, std::span<float> depth, std::span<std::uint32_t> id) const {
+void DepthTarget::read(const Api& gl, int layers, std::span<float> depth,
+                       std::span<std::uint32_t> id) const {
     ZSKEL_ASSERT(depth.size() == static_cast<std::size_t>(layers) * px_ * px_, "one value a texel");
     gl.PixelStorei(GL_PACK_ALIGNMENT, 4);
     gl.GetTextureSubImage(depth_, 0, 0, 0, 0, px_, px_, layers, GL_DEPTH_COMPONENT, GL_FLOAT,

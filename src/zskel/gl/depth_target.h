@@ -7,13 +7,15 @@
 
 namespace zskel::gl {
 
-/// A layered target: 32F depth and an unsigned integer id per texel. Lives in the context it was made in.
+/// A layered target: 32F depth and an unsigned integer id per texel. Lives in the context it was
+/// made in.
 class DepthTarget {
   public:
     DepthTarget(const Api& gl, int px, int layers);
     void destroy(const Api& gl);
 
-    /// Binds it and its viewport, and clears depth to 0 (reversed: infinitely far) and ids to all ones.
+    /// Binds it and its viewport, and clears depth to 0 (reversed: infinitely far) and ids to all
+    /// ones.
     void begin(const Api& gl) const;
 
     /// Reads the first `layers` layers, rows upward.
@@ -29,7 +31,8 @@ class DepthTarget {
     GLuint framebuffer_ = 0;
 };
 
-/// Reversed-Z with an infinite far plane: depth near/z in [0, 1], greater is nearer, nothing culled.
+/// Reversed-Z with an infinite far plane: depth near/z in [0, 1], greater is nearer, nothing
+/// culled.
 void set_reversed_depth(const Api& gl);
 
 }  // namespace zskel::gl

@@ -1,5 +1,6 @@
-// EGL contexts without a display server: a device of EGL_EXT_device_enumeration, or Mesa's surfaceless
-// platform. libEGL is loaded when it is asked for, so that a program that draws nothing pays nothing.
+// EGL contexts without a display server: a device of EGL_EXT_device_enumeration, or Mesa's
+// surfaceless platform. libEGL is loaded when it is asked for, so that a program that draws nothing
+// pays nothing.
 #include <EGL/egl.h>
 #include <EGL/eglext.h>
 #include <dlfcn.h>
@@ -36,7 +37,8 @@ void load(Egl& egl, void* library, Function& function, const char* name) {
         found = reinterpret_cast<void*>(egl.get_proc_address(name));
     }
     function = reinterpret_cast<Function>(found);
-    if (function == nullptr && egl.missing.empty()) egl.missing = fmt::format("libEGL has no {}", name);
+    if (function == nullptr && egl.missing.empty())
+        egl.missing = fmt::format("libEGL has no {}", name);
 }
 
 Egl load_egl() {
@@ -90,7 +92,8 @@ bool is_software(const Egl& egl, EGLDeviceEXT device) {
 
 EGLDisplay open_display(const Egl& egl, const Candidate& candidate) {
     if (candidate.kind == ContextKind::EglSurfaceless) {
-        return egl.get_platform_display(EGL_PLATFORM_SURFACELESS_MESA, EGL_DEFAULT_DISPLAY, nullptr);
+        return egl.get_platform_display(EGL_PLATFORM_SURFACELESS_MESA, EGL_DEFAULT_DISPLAY,
+                                        nullptr);
     }
     int number = 0;
     for (EGLDeviceEXT device : query_devices(egl)) {
@@ -99,7 +102,8 @@ EGLDisplay open_display(const Egl& egl, const Candidate& candidate) {
             return egl.get_platform_display(EGL_PLATFORM_DEVICE_EXT, device, nullptr);
         }
     }
-    throw GlError(fmt::format("EGL lists {} such devices; there is no number {}", number, candidate.device));
+    throw GlError(
+        fmt::format("EGL lists {} such devices; there is no number {}", number, candidate.device));
 }
 
 class EglContext : public NativeContext {
@@ -109,7 +113,8 @@ class EglContext : public NativeContext {
         require(display_ != EGL_NO_DISPLAY, "eglGetPlatformDisplayEXT");
         require(egl_.initialize(display_, nullptr, nullptr) == EGL_TRUE, "eglInitialize");
         require(egl_.bind_api(EGL_OPENGL_API) == EGL_TRUE, "eglBindAPI(EGL_OPENGL_API)");
-        const EGLint wanted[] = {EGL_RENDERABLE_TYPE, EGL_OPENGL_BIT, EGL_SURFACE_TYPE, 0, EGL_NONE};
+        const EGLint wanted[] = {EGL_RENDERABLE_TYPE, EGL_OPENGL_BIT, EGL_SURFACE_TYPE, 0,
+                                 EGL_NONE};
         EGLConfig config = nullptr;
         EGLint count = 0;
         require(egl_.choose_config(display_, wanted, &config, 1, &count) == EGL_TRUE && count > 0,
@@ -128,11 +133,13 @@ class EglContext : public NativeContext {
         if (egl_.make_current(display_, EGL_NO_SURFACE, EGL_NO_SURFACE, context_) != EGL_TRUE) {
             const EGLint error = egl_.get_error();
             egl_.destroy_context(display_, context_);
-            throw GlError(fmt::format("eglMakeCurrent without a surface failed (EGL error {:#06x})", error));
+            throw GlError(
+                fmt::format("eglMakeCurrent without a surface failed (EGL error {:#06x})", error));
         }
     }
 
-    // The display stays initialised: it is shared with any other user of this device in the process.
+    // The display stays initialised: it is shared with any other user of this device in the
+    // process.
     ~EglContext() override {
         egl_.make_current(display_, EGL_NO_SURFACE, EGL_NO_SURFACE, EGL_NO_CONTEXT);
         egl_.destroy_context(display_, context_);
@@ -144,7 +151,8 @@ class EglContext : public NativeContext {
 
   private:
     void require(bool fine, const char* call) const {
-        if (!fine) throw GlError(fmt::format("{} failed (EGL error {:#06x})", call, egl_.get_error()));
+        if (!fine)
+            throw GlError(fmt::format("{} failed (EGL error {:#06x})", call, egl_.get_error()));
     }
 
     const Egl& egl_;
@@ -165,10 +173,12 @@ std::vector<Candidate> list_egl_devices(std::vector<FailedAttempt>& failed) {
     int software = 0;
     for (EGLDeviceEXT device : query_devices(egl)) {
         if (is_software(egl, device)) {
-            candidates.push_back({ContextKind::EglSoftware, software, fmt::format("EGL software device {}", software)});
+            candidates.push_back({ContextKind::EglSoftware, software,
+                                  fmt::format("EGL software device {}", software)});
             ++software;
         } else {
-            candidates.push_back({ContextKind::EglHardware, hardware, fmt::format("EGL hardware device {}", hardware)});
+            candidates.push_back({ContextKind::EglHardware, hardware,
+                                  fmt::format("EGL hardware device {}", hardware)});
             ++hardware;
         }
     }

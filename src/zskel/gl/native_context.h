@@ -8,8 +8,8 @@
 
 namespace zskel::gl {
 
-/// A context as its window-system layer makes it: bound to the calling thread, without any check. All
-/// calls come from one thread.
+/// A context as its window-system layer makes it: bound to the calling thread, without any check.
+/// All calls come from one thread.
 class NativeContext {
   public:
     virtual ~NativeContext() = default;
@@ -24,7 +24,8 @@ struct Candidate {
     std::string name;
 };
 
-/// Devices that EGL lists (nothing is initialised); empty without libEGL, with the reason in `failed`.
+/// Devices that EGL lists (nothing is initialised); empty without libEGL, with the reason in
+/// `failed`.
 std::vector<Candidate> list_egl_devices(std::vector<FailedAttempt>& failed);
 
 /// Makes the candidate's context current on this thread. @throws GlError with the reason.

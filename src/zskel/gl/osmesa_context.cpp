@@ -1,5 +1,6 @@
-// Mesa's off-screen library. Mesa 25.1 removed it, so it is looked for at run time and never required; the
-// few constants of its interface that are used stand here, since its header may be gone too.
+// Mesa's off-screen library. Mesa 25.1 removed it, so it is looked for at run time and never
+// required; the few constants of its interface that are used stand here, since its header may be
+// gone too.
 #include <dlfcn.h>
 #include <fmt/format.h>
 
@@ -24,8 +25,8 @@ using OsmesaHandle = void*;
 struct Osmesa {
     OsmesaHandle (*create_context)(const int* attributes, OsmesaHandle share) = nullptr;
     void (*destroy_context)(OsmesaHandle context) = nullptr;
-    GLboolean (*make_current)(OsmesaHandle context, void* buffer, GLenum type, GLsizei width, GLsizei height) =
-        nullptr;
+    GLboolean (*make_current)(OsmesaHandle context, void* buffer, GLenum type, GLsizei width,
+                              GLsizei height) = nullptr;
     void* (*get_proc_address)(const char* name) = nullptr;
 };
 
@@ -35,10 +36,12 @@ Osmesa load_osmesa() {
         library = dlopen(name, RTLD_NOW | RTLD_LOCAL);  // never closed, as libEGL
         if (library != nullptr) break;
     }
-    if (library == nullptr) throw GlError("libOSMesa is not installed (on Debian: apt-get install libosmesa6)");
+    if (library == nullptr)
+        throw GlError("libOSMesa is not installed (on Debian: apt-get install libosmesa6)");
     Osmesa osmesa;
     const auto load = [&](auto& function, const char* name) {
-        function = reinterpret_cast<std::remove_reference_t<decltype(function)>>(dlsym(library, name));
+        function =
+            reinterpret_cast<std::remove_reference_t<decltype(function)>>(dlsym(library, name));
         if (function == nullptr) throw GlError(fmt::format("libOSMesa has no {}", name));
     };
     load(osmesa.create_context, "OSMesaCreateContextAttribs");
@@ -51,11 +54,18 @@ Osmesa load_osmesa() {
 class OsmesaContext : public NativeContext {
   public:
     OsmesaContext() : osmesa_(load_osmesa()) {
-        const int attributes[] = {kOsmesaFormat,       kRgba, kOsmesaProfile,      kOsmesaCoreProfile,
-                                  kOsmesaContextMajor, 4,     kOsmesaContextMinor, 5,
+        const int attributes[] = {kOsmesaFormat,
+                                  kRgba,
+                                  kOsmesaProfile,
+                                  kOsmesaCoreProfile,
+                                  kOsmesaContextMajor,
+                                  4,
+                                  kOsmesaContextMinor,
+                                  5,
                                   0};
         context_ = osmesa_.create_context(attributes, nullptr);
-        if (context_ == nullptr) throw GlError("OSMesaCreateContextAttribs gives no OpenGL 4.5 core context");
+        if (context_ == nullptr)
+            throw GlError("OSMesaCreateContextAttribs gives no OpenGL 4.5 core context");
         if (osmesa_.make_current(context_, pixel_.data(), GL_UNSIGNED_BYTE, 1, 1) != GL_TRUE) {
             osmesa_.destroy_context(context_);
             throw GlError("OSMesaMakeCurrent failed");
@@ -75,6 +85,8 @@ class OsmesaContext : public NativeContext {
 
 }  // namespace
 
-std::unique_ptr<NativeContext> make_osmesa_context() { return std::make_unique<OsmesaContext>(); }
+std::unique_ptr<NativeContext> make_osmesa_context() {
+    return std::make_unique<OsmesaContext>();
+}
 
 }  // namespace zskel::gl

@@ -72,7 +72,8 @@ GLuint make_buffer(const Api& gl, const void* data, GLsizeiptr bytes, GLbitfield
 void require_complete(const Api& gl, GLuint framebuffer, std::string_view what) {
     const GLenum status = gl.CheckNamedFramebufferStatus(framebuffer, GL_FRAMEBUFFER);
     if (status != GL_FRAMEBUFFER_COMPLETE) {
-        throw GlError(fmt::format("the framebuffer of {} is incomplete (status {:#06x})", what, status));
+        throw GlError(
+            fmt::format("the framebuffer of {} is incomplete (status {:#06x})", what, status));
     }
 }
 

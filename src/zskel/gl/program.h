@@ -9,7 +9,7 @@ namespace zskel::gl {
 
 struct ShaderStage {
     GLenum kind;
-    std::string_view name;      ///< the file's, for messages
+    std::string_view name;  ///< the file's, for messages
     std::string_view source;
 };
 

@@ -14,7 +14,8 @@
 namespace zskel {
 namespace {
 
-// Paths of the writes in progress, kept where a signal handler may read them: fixed slots of plain bytes.
+// Paths of the writes in progress, kept where a signal handler may read them: fixed slots of plain
+// bytes.
 constexpr std::size_t kSlots = 8;
 constexpr std::size_t kMaxPath = 4096;
 struct Slot {
@@ -39,7 +40,8 @@ class Unfinished {
             slot_ = &slot;
             return;
         }
-        throw IoError(fmt::format("{}: more than {} files are being written at once", path, kSlots));
+        throw IoError(
+            fmt::format("{}: more than {} files are being written at once", path, kSlots));
     }
     ~Unfinished() {
         if (slot_->armed) std::remove(slot_->path.data());

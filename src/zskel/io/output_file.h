@@ -6,9 +6,9 @@
 
 namespace zskel {
 
-/// Writes a file whole or not at all: `write` fills a temporary file beside it, which is then renamed.
-/// The temporary file goes away when anything fails and when the program is interrupted (see
-/// `remove_unfinished_files`).
+/// Writes a file whole or not at all: `write` fills a temporary file beside it, which is then
+/// renamed. The temporary file goes away when anything fails and when the program is interrupted
+/// (see `remove_unfinished_files`).
 /// @throws IoError naming the path and the system's reason; whatever `write` throws.
 void write_output_file(const std::string& path,
                        const std::function<void(const std::string& temporary_path)>& write);
@@ -16,7 +16,8 @@ void write_output_file(const std::string& path,
 /// The same for text; "-" writes to standard output.
 void write_output_text(const std::string& path, std::string_view text);
 
-/// Deletes the temporary files of writes in progress. Async-signal-safe: for handlers of SIGINT and the like.
+/// Deletes the temporary files of writes in progress. Async-signal-safe: for handlers of SIGINT and
+/// the like.
 void remove_unfinished_files() noexcept;
 
 }  // namespace zskel

@@ -11,13 +11,18 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-Json point(const DVec3& p) { return Json::array({p.x, p.y, p.z}); }
+Json point(const DVec3& p) {
+    return Json::array({p.x, p.y, p.z});
+}
 
 Json nodes_json(const SkeletonGraph& graph) {
     Json nodes = Json::array();
     for (std::size_t i = 0; i < graph.nodes.size(); ++i) {
         const SkeletonGraph::Node& node = graph.nodes[i];
-        nodes.push_back({{"id", i}, {"position", point(node.position)}, {"radius", node.radius}, {"solid", node.solid}});
+        nodes.push_back({{"id", i},
+                         {"position", point(node.position)},
+                         {"radius", node.radius},
+                         {"solid", node.solid}});
     }
     return nodes;
 }
@@ -45,8 +50,9 @@ Json statistics_json(const ExtractResult& result) {
     Json states;
     for (const SeedState state :
          {SeedState::Converged, SeedState::StepLimit, SeedState::LeftMesh, SeedState::NoHits}) {
-        const auto count = std::count_if(result.seeds.begin(), result.seeds.end(),
-                                         [&](const SeedReport& seed) { return seed.state == state; });
+        const auto count =
+            std::count_if(result.seeds.begin(), result.seeds.end(),
+                          [&](const SeedReport& seed) { return seed.state == state; });
         states[std::string(name_of(state))] = count;
     }
     Json seconds;
@@ -105,9 +111,9 @@ Json provenance_json(const Provenance& provenance, const Similarity& world) {
 Json seeds_json(const ExtractResult& result, const JsonParts& parts) {
     Json seeds = Json::array();
     for (const SeedReport& seed : result.seeds) {
-        Json entry{{"vertex", seed.vertex},     {"node", seed.node},
-                   {"start", point(seed.start)}, {"end", point(seed.end)},
-                   {"state", name_of(seed.state)}, {"steps", seed.steps},
+        Json entry{{"vertex", seed.vertex},          {"node", seed.node},
+                   {"start", point(seed.start)},     {"end", point(seed.end)},
+                   {"state", name_of(seed.state)},   {"steps", seed.steps},
                    {"evaluations", seed.evaluations}};
         if (parts.paths) {
             Json path = Json::array();
@@ -121,7 +127,8 @@ Json seeds_json(const ExtractResult& result, const JsonParts& parts) {
 
 }  // namespace
 
-std::string skeleton_json(const ExtractResult& result, const Provenance& provenance, const JsonParts& parts) {
+std::string skeleton_json(const ExtractResult& result, const Provenance& provenance,
+                          const JsonParts& parts) {
     Json out{{"format", "zskel-skeleton"}, {"version", 1}};
     out["nodes"] = nodes_json(result.graph);
     out["edges"] = edges_json(result.graph);

@@ -8,21 +8,23 @@ namespace zskel {
 
 /// What made a skeleton; goes into its file.
 struct Provenance {
-    std::string model;            ///< path as given
-    std::uint64_t model_hash = 0; ///< XXH3-64 of the file's bytes
-    std::string command;          ///< as typed; empty for library callers
+    std::string model;             ///< path as given
+    std::uint64_t model_hash = 0;  ///< XXH3-64 of the file's bytes
+    std::string command;           ///< as typed; empty for library callers
     ExtractOptions options;
     BackendOptions backend_options;
     BackendInfo backend;
 };
 
 struct JsonParts {
-    bool seeds = false;           ///< adds every seed's start, end, state, steps and node
-    bool paths = false;           ///< and its path, where it was kept
+    bool seeds = false;  ///< adds every seed's start, end, state, steps and node
+    bool paths = false;  ///< and its path, where it was kept
 };
 
-/// The skeleton as JSON (`"format": "zskel-skeleton"`, `"version": 1`), positions in the model's coordinates.
-std::string skeleton_json(const ExtractResult& result, const Provenance& provenance, const JsonParts& parts);
+/// The skeleton as JSON (`"format": "zskel-skeleton"`, `"version": 1`), positions in the model's
+/// coordinates.
+std::string skeleton_json(const ExtractResult& result, const Provenance& provenance,
+                          const JsonParts& parts);
 
 /// The skeleton as OBJ lines: a `v` for each node, an `l` for each edge.
 std::string skeleton_obj(const SkeletonGraph& graph);

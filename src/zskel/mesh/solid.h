@@ -7,19 +7,20 @@
 
 namespace zskel {
 
-/// One outer shell with the cavities inside it: what an eye within it can see. An open part is a solid
-/// of its own.
+/// One outer shell with the cavities inside it: what an eye within it can see. An open part is a
+/// solid of its own.
 struct Solid {
-    Surface surface;                     ///< its own vertices and triangles; cavities face their void
-    std::vector<std::uint32_t> vertex;   ///< of each of its vertices: the number in the whole surface
+    Surface surface;  ///< its own vertices and triangles; cavities face their void
+    std::vector<std::uint32_t>
+        vertex;  ///< of each of its vertices: the number in the whole surface
     std::uint32_t cavity_count = 0;
     bool is_closed = false;
 };
 
-/// Groups the components of a surface into solids by nesting. Closed components inside an even number of
-/// others are outer shells; those inside an odd number are cavities of the nearest shell round them.
-/// A component counts as inside another when all of up to 16 sample vertices have a winding number
-/// above one half. Work: (closed components whose boxes nest) x triangles.
+/// Groups the components of a surface into solids by nesting. Closed components inside an even
+/// number of others are outer shells; those inside an odd number are cavities of the nearest shell
+/// round them. A component counts as inside another when all of up to 16 sample vertices have a
+/// winding number above one half. Work: (closed components whose boxes nest) x triangles.
 std::vector<Solid> split_solids(const PreparedSurface& prepared);
 
 }  // namespace zskel

@@ -23,9 +23,10 @@ struct Similarity {
 struct Surface {
     std::vector<Vec3> positions;
     std::vector<Triangle> triangles;
-    std::vector<Vec3> triangle_normals;  ///< unit, out of the solid; zero for a triangle without area
-    std::vector<Vec3> vertex_normals;    ///< unit, weighted by the angles of the triangles round it
-    std::vector<glm::uvec2> edges;       ///< each once, lower vertex first, sorted
+    std::vector<Vec3>
+        triangle_normals;              ///< unit, out of the solid; zero for a triangle without area
+    std::vector<Vec3> vertex_normals;  ///< unit, weighted by the angles of the triangles round it
+    std::vector<glm::uvec2> edges;     ///< each once, lower vertex first, sorted
     Similarity world_from_model;
 };
 
@@ -38,10 +39,10 @@ struct Repair {
 /// A surface made ready from a mesh, and how the two correspond.
 struct PreparedSurface {
     Surface surface;
-    std::vector<std::uint32_t> surface_vertex;       ///< of every input vertex; kNone when unused
-    std::vector<std::uint32_t> component;            ///< of every triangle: parts joined by edges
+    std::vector<std::uint32_t> surface_vertex;  ///< of every input vertex; kNone when unused
+    std::vector<std::uint32_t> component;       ///< of every triangle: parts joined by edges
     std::uint32_t component_count = 0;
-    std::vector<bool> component_closed;              ///< every edge has exactly two triangles
+    std::vector<bool> component_closed;  ///< every edge has exactly two triangles
     std::vector<Repair> repairs;
 };
 

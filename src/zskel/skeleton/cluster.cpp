@@ -4,13 +4,12 @@
 #include <queue>
 #include <tuple>
 
-
 namespace zskel {
 namespace {
 
 struct Pair {
     double distance;
-    std::uint32_t a;      // cluster names: their number in order of making, points first
+    std::uint32_t a;  // cluster names: their number in order of making, points first
     std::uint32_t b;
     bool operator>(const Pair& other) const {
         return std::tie(distance, a, b) > std::tie(other.distance, other.a, other.b);
@@ -20,7 +19,7 @@ struct Pair {
 struct Cluster {
     DVec3 sum{0.0};
     double count = 0.0;
-    std::vector<std::uint32_t> neighbours;   // may name clusters that have been merged since
+    std::vector<std::uint32_t> neighbours;  // may name clusters that have been merged since
     std::uint32_t merged_into = kNone;
 
     DVec3 center() const { return sum / count; }
@@ -28,7 +27,8 @@ struct Cluster {
 
 class Merger {
   public:
-    Merger(std::span<const Vec3> points, std::span<const glm::uvec2> links, double range) : range_(range) {
+    Merger(std::span<const Vec3> points, std::span<const glm::uvec2> links, double range)
+        : range_(range) {
         clusters_.reserve(points.size() * 2);
         for (const Vec3& p : points) clusters_.push_back({DVec3(p), 1.0, {}, kNone});
         for (const glm::uvec2& link : links) {
@@ -42,7 +42,8 @@ class Merger {
         while (!queue_.empty()) {
             const Pair pair = queue_.top();
             queue_.pop();
-            const bool alive = clusters_[pair.a].merged_into == kNone && clusters_[pair.b].merged_into == kNone;
+            const bool alive =
+                clusters_[pair.a].merged_into == kNone && clusters_[pair.b].merged_into == kNone;
             if (alive) merge(pair.a, pair.b);
         }
     }
@@ -60,7 +61,8 @@ class Merger {
         if (distance <= range_) queue_.push({distance, std::min(a, b), std::max(a, b)});
     }
 
-    // A merged pair gets a new name, so that entries in the queue for its parts are known to be stale.
+    // A merged pair gets a new name, so that entries in the queue for its parts are known to be
+    // stale.
     void merge(std::uint32_t a, std::uint32_t b) {
         const auto name = static_cast<std::uint32_t>(clusters_.size());
         Cluster merged;

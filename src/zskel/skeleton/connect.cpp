@@ -8,7 +8,9 @@
 namespace zskel {
 namespace {
 
-bool edge_before(const glm::uvec2& l, const glm::uvec2& r) { return l.x != r.x ? l.x < r.x : l.y < r.y; }
+bool edge_before(const glm::uvec2& l, const glm::uvec2& r) {
+    return l.x != r.x ? l.x < r.x : l.y < r.y;
+}
 
 }  // namespace
 
@@ -25,11 +27,15 @@ std::vector<glm::uvec2> connect_clusters(std::span<const std::uint32_t> cluster_
     return edges;
 }
 
-std::vector<glm::uvec2> spanning_forest(std::span<const Vec3> centers, std::span<const glm::uvec2> edges) {
+std::vector<glm::uvec2> spanning_forest(std::span<const Vec3> centers,
+                                        std::span<const glm::uvec2> edges) {
     std::vector<std::uint32_t> order(edges.size());
     std::iota(order.begin(), order.end(), 0u);
-    const auto length = [&](std::uint32_t e) { return glm::distance(centers[edges[e].x], centers[edges[e].y]); };
-    std::stable_sort(order.begin(), order.end(), [&](auto l, auto r) { return length(l) < length(r); });
+    const auto length = [&](std::uint32_t e) {
+        return glm::distance(centers[edges[e].x], centers[edges[e].y]);
+    };
+    std::stable_sort(order.begin(), order.end(),
+                     [&](auto l, auto r) { return length(l) < length(r); });
     DisjointSets sets(centers.size());
     std::vector<glm::uvec2> kept;
     for (const std::uint32_t e : order) {

@@ -11,15 +11,15 @@ namespace zskel {
 struct SkeletonGraph {
     struct Node {
         DVec3 position{0.0};
-        double radius = 0.0;          ///< inscribed: distance to the nearest surface point
-        std::uint32_t solid = 0;      ///< the solid it belongs to
+        double radius = 0.0;      ///< inscribed: distance to the nearest surface point
+        std::uint32_t solid = 0;  ///< the solid it belongs to
     };
     struct Edge {
-        std::uint32_t source = 0;     ///< lower node number
+        std::uint32_t source = 0;  ///< lower node number
         std::uint32_t target = 0;
     };
     std::vector<Node> nodes;
-    std::vector<Edge> edges;          ///< each once, sorted
+    std::vector<Edge> edges;                 ///< each once, sorted
     std::vector<std::uint32_t> vertex_node;  ///< of every input vertex; kNone where it has no face
 };
 

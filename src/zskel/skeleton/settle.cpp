@@ -61,10 +61,12 @@ class PaperWalk {
         seed.position = walker.next;
         if (options_.keep_paths) seed.path.push_back(seed.position);
         if (strength == 0.0f) return rest(seed, SeedState::Converged);
-        if (seed.steps >= static_cast<std::uint32_t>(options_.max_steps)) return rest(seed, SeedState::StepLimit);
+        if (seed.steps >= static_cast<std::uint32_t>(options_.max_steps))
+            return rest(seed, SeedState::StepLimit);
         walker.started = true;
         walker.force = met.force;
-        walker.next = seed.position + met.force / strength * static_cast<float>(options_.step_world);
+        walker.next =
+            seed.position + met.force / strength * static_cast<float>(options_.step_world);
         return true;
     }
 
@@ -84,16 +86,21 @@ class PaperWalk {
 
 std::string_view name_of(SeedState state) {
     switch (state) {
-        case SeedState::Converged: return "converged";
-        case SeedState::StepLimit: return "step_limit";
-        case SeedState::LeftMesh: return "left_mesh";
-        case SeedState::NoHits: return "no_hits";
+        case SeedState::Converged:
+            return "converged";
+        case SeedState::StepLimit:
+            return "step_limit";
+        case SeedState::LeftMesh:
+            return "left_mesh";
+        case SeedState::NoHits:
+            return "no_hits";
     }
     return "";
 }
 
 std::vector<SettledSeed> settle_seeds(VisibilitySource& source, std::span<const Seed> seeds,
-                                      const PaperStepOptions& options, const SettleProgress& progress) {
+                                      const PaperStepOptions& options,
+                                      const SettleProgress& progress) {
     PaperWalk walk(seeds, options);
     while (!walk.is_done()) {
         walk.round(source);

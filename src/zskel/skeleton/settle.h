@@ -21,11 +21,11 @@ enum class SeedState : std::uint8_t {
 std::string_view name_of(SeedState state);
 
 struct SettledSeed {
-    Vec3 position{0.0f};          ///< where it came to rest, world space
+    Vec3 position{0.0f};  ///< where it came to rest, world space
     SeedState state = SeedState::Converged;
     std::uint32_t steps = 0;
     std::uint32_t evaluations = 0;
-    std::vector<Vec3> path;       ///< start to end; empty unless paths are kept
+    std::vector<Vec3> path;  ///< start to end; empty unless paths are kept
 };
 
 struct PaperStepOptions {
@@ -37,11 +37,13 @@ struct PaperStepOptions {
 /// Called between rounds with the share of seeds at rest.
 using SettleProgress = std::function<void(double)>;
 
-/// Moves every seed by p += normalize(force) * step until the force would grow: the least force along the
-/// way is where it rests. All seeds that still move are evaluated together, one batch a round.
+/// Moves every seed by p += normalize(force) * step until the force would grow: the least force
+/// along the way is where it rests. All seeds that still move are evaluated together, one batch a
+/// round.
 /// @throws GlError when a GL pass fails; whatever `progress` throws.
 /// @see Wu et al. 2003, section 4.1, with its stop rule as printed.
 std::vector<SettledSeed> settle_seeds(VisibilitySource& source, std::span<const Seed> seeds,
-                                      const PaperStepOptions& options, const SettleProgress& progress = {});
+                                      const PaperStepOptions& options,
+                                      const SettleProgress& progress = {});
 
 }  // namespace zskel

@@ -27,7 +27,9 @@ constexpr std::array<std::pair<BackendKind, std::string_view>, 6> kNames{{
 class GlBackend : public Backend {
   public:
     GlBackend(BackendInfo info, std::unique_ptr<gl::Context> context, int face_px)
-        : Backend(std::move(info)), context_(std::move(context)), pipeline_(make_raster_pipeline(face_px, *context_)) {}
+        : Backend(std::move(info)),
+          context_(std::move(context)),
+          pipeline_(make_raster_pipeline(face_px, *context_)) {}
     std::unique_ptr<VisibilitySource> prepare(const Surface& solid) override {
         return make_raster_source(solid, *pipeline_);
     }
@@ -50,7 +52,9 @@ class RayBackend : public Backend {
     RayMethod method_;
 };
 
-bool is_ray(BackendKind kind) { return kind == BackendKind::Ray || kind == BackendKind::Brute; }
+bool is_ray(BackendKind kind) {
+    return kind == BackendKind::Ray || kind == BackendKind::Brute;
+}
 
 gl::ContextRequest request_for(const BackendOptions& options) {
     gl::ContextRequest request;
@@ -76,19 +80,22 @@ std::unique_ptr<Backend> open_rays(const BackendOptions& options, BackendInfo in
 std::string reasons(const std::vector<gl::FailedAttempt>& failed) {
     std::string text;
     for (const gl::FailedAttempt& attempt : failed) {
-        text += fmt::format("{}{}: {}", text.empty() ? "" : "; ", attempt.candidate, attempt.reason);
+        text +=
+            fmt::format("{}{}: {}", text.empty() ? "" : "; ", attempt.candidate, attempt.reason);
     }
     return text.empty() ? "no candidate" : text;
 }
 
 void check_options(const BackendOptions& options) {
     if (options.rays != 0 && !is_ray(options.kind)) {
-        throw UsageError(fmt::format("--rays goes with --backend ray or brute; {} samples a cube map (--face-px)",
-                                     name_of(options.kind)));
+        throw UsageError(fmt::format(
+            "--rays goes with --backend ray or brute; {} samples a cube map (--face-px)",
+            name_of(options.kind)));
     }
     const bool no_gpu = is_ray(options.kind) || options.kind == BackendKind::Osmesa;
     if (options.gpu >= 0 && no_gpu) {
-        throw UsageError(fmt::format("--gpu goes with a GL backend on hardware, not with {}", name_of(options.kind)));
+        throw UsageError(fmt::format("--gpu goes with a GL backend on hardware, not with {}",
+                                     name_of(options.kind)));
     }
     check_face_px(options.face_px);
 }
@@ -99,7 +106,8 @@ BackendKind parse_backend(std::string_view name) {
     for (const auto& [kind, known] : kNames) {
         if (known == name) return kind;
     }
-    throw UsageError(fmt::format("unknown backend '{}': auto, gl, egl, osmesa, ray or brute", name));
+    throw UsageError(
+        fmt::format("unknown backend '{}': auto, gl, egl, osmesa, ray or brute", name));
 }
 
 std::string_view name_of(BackendKind kind) {
@@ -122,8 +130,8 @@ std::unique_ptr<Backend> open_backend(const BackendOptions& options) {
         return std::make_unique<GlBackend>(std::move(info), std::move(context), options.face_px);
     }
     if (options.kind != BackendKind::Auto || options.gpu >= 0) {
-        throw GlError(fmt::format("backend {} cannot be used: {} (see zskel doctor)", name_of(options.kind),
-                                  reasons(info.failed)));
+        throw GlError(fmt::format("backend {} cannot be used: {} (see zskel doctor)",
+                                  name_of(options.kind), reasons(info.failed)));
     }
     log_warning("no GL context ({}): rays are traced instead", reasons(info.failed));
     info.is_fallback = true;
@@ -136,7 +144,8 @@ std::unique_ptr<gl::Context> open_picture_context(int gpu) {
     std::vector<gl::FailedAttempt> failed;
     std::unique_ptr<gl::Context> context = gl::open_context(request, failed);
     if (context == nullptr) {
-        throw GlError(fmt::format("a picture needs a GL context: {} (see zskel doctor)", reasons(failed)));
+        throw GlError(
+            fmt::format("a picture needs a GL context: {} (see zskel doctor)", reasons(failed)));
     }
     return context;
 }

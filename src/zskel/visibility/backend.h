@@ -12,12 +12,12 @@ namespace zskel {
 
 /// Where visibility comes from.
 enum class BackendKind {
-    Auto,    ///< the first GL context that works; rays, with a warning, when none does
-    Gl,      ///< the first GL context that works
-    Egl,     ///< the same, without OSMesa
+    Auto,  ///< the first GL context that works; rays, with a warning, when none does
+    Gl,    ///< the first GL context that works
+    Egl,   ///< the same, without OSMesa
     Osmesa,
-    Ray,     ///< Embree
-    Brute,   ///< every ray against every triangle, as the paper did: for comparison only
+    Ray,    ///< Embree
+    Brute,  ///< every ray against every triangle, as the paper did: for comparison only
 };
 /// @throws UsageError for an unknown name.
 BackendKind parse_backend(std::string_view name);
@@ -25,19 +25,19 @@ std::string_view name_of(BackendKind kind);
 
 struct BackendOptions {
     BackendKind kind = BackendKind::Auto;
-    int gpu = -1;         ///< number of the hardware device to take; -1: any
-    int face_px = 16;     ///< texels along a cube face
-    int rays = 0;         ///< ray backends only: directions an eye, spread radially; 0: the cube's texels
+    int gpu = -1;      ///< number of the hardware device to take; -1: any
+    int face_px = 16;  ///< texels along a cube face
+    int rays = 0;  ///< ray backends only: directions an eye, spread radially; 0: the cube's texels
 };
 
 /// What answers, and why others did not.
 struct BackendInfo {
-    std::string name;                         ///< egl-hardware, egl-software, egl-surfaceless, osmesa, ray, brute
+    std::string name;  ///< egl-hardware, egl-software, egl-surfaceless, osmesa, ray, brute
     std::string vendor;
     std::string renderer;
     std::string version;
-    std::vector<gl::FailedAttempt> failed;    ///< candidates tried before it
-    bool is_fallback = false;                 ///< `auto` found no GL context and took rays
+    std::vector<gl::FailedAttempt> failed;  ///< candidates tried before it
+    bool is_fallback = false;               ///< `auto` found no GL context and took rays
 };
 
 /// An opened backend: prepares one source a solid. Sources must not outlive it.
@@ -54,7 +54,8 @@ class Backend {
     BackendInfo info_;
 };
 
-/// @throws GlError when the backend asked for cannot be had (one named never falls back), with every
+/// @throws GlError when the backend asked for cannot be had (one named never falls back), with
+/// every
 ///         candidate's reason; UsageError for options that make no sense together.
 std::unique_ptr<Backend> open_backend(const BackendOptions& options);
 

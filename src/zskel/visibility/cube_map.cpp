@@ -12,16 +12,21 @@ namespace zskel {
 namespace {
 
 // Texel borders on a face run from -1 to 1.
-double border(int i, int face_px) { return 2.0 * i / face_px - 1.0; }
+double border(int i, int face_px) {
+    return 2.0 * i / face_px - 1.0;
+}
 
 // Solid angle of the rectangle between the face's centre and (u, v).
-double corner_angle(double u, double v) { return std::atan2(u * v, std::sqrt(u * u + v * v + 1.0)); }
+double corner_angle(double u, double v) {
+    return std::atan2(u * v, std::sqrt(u * u + v * v + 1.0));
+}
 
 }  // namespace
 
 void check_face_px(int face_px) {
     if (face_px < kMinFacePx || face_px > kMaxFacePx) {
-        throw UsageError(fmt::format("a cube face of {} texels: give {} to {}", face_px, kMinFacePx, kMaxFacePx));
+        throw UsageError(fmt::format("a cube face of {} texels: give {} to {}", face_px, kMinFacePx,
+                                     kMaxFacePx));
     }
 }
 
@@ -61,14 +66,16 @@ double texel_solid_angle(const Texel& texel, int face_px) {
     const double u1 = border(texel.column + 1, face_px);
     const double v0 = border(texel.row, face_px);
     const double v1 = border(texel.row + 1, face_px);
-    return corner_angle(u1, v1) - corner_angle(u0, v1) - corner_angle(u1, v0) + corner_angle(u0, v0);
+    return corner_angle(u1, v1) - corner_angle(u0, v1) - corner_angle(u1, v0) +
+           corner_angle(u0, v0);
 }
 
 Texel texel_of_direction(const DVec3& direction, int face_px) {
     Texel texel{0, 0, 0};
     double axial = 0.0;
     for (int f = 0; f < 6; ++f) {
-        const double along = glm::dot(direction, DVec3(cube_faces()[static_cast<std::size_t>(f)].forward));
+        const double along =
+            glm::dot(direction, DVec3(cube_faces()[static_cast<std::size_t>(f)].forward));
         if (along > axial) {
             axial = along;
             texel.face = f;
@@ -88,7 +95,8 @@ Directions cube_directions(int face_px) {
     check_face_px(face_px);
     Directions out;
     out.face_px = face_px;
-    const std::size_t count = 6 * static_cast<std::size_t>(face_px) * static_cast<std::size_t>(face_px);
+    const std::size_t count =
+        6 * static_cast<std::size_t>(face_px) * static_cast<std::size_t>(face_px);
     out.unit.reserve(count);
     out.weight.reserve(count);
     for (std::size_t i = 0; i < count; ++i) {

@@ -15,8 +15,8 @@ inline constexpr int kMaxFacePx = 1024;
 /// @throws UsageError unless kMinFacePx <= face_px <= kMaxFacePx.
 void check_face_px(int face_px);
 
-/// A cube face: `right` x `up` = -`forward`, so that a picture of it keeps the winding of triangles.
-/// Faces are in GL's order, +X -X +Y -Y +Z -Z, with GL's own axes for each.
+/// A cube face: `right` x `up` = -`forward`, so that a picture of it keeps the winding of
+/// triangles. Faces are in GL's order, +X -X +Y -Y +Z -Z, with GL's own axes for each.
 struct CubeFace {
     Vec3 right;
     Vec3 up;

@@ -19,7 +19,8 @@ Directions radial_directions(int count) {
     for (int i = 0; i < count; ++i) {
         const double z = 1.0 - (2.0 * i + 1.0) / count;
         const double ring = std::sqrt(1.0 - z * z);
-        out.unit.emplace_back(ring * std::cos(golden_angle * i), ring * std::sin(golden_angle * i), z);
+        out.unit.emplace_back(ring * std::cos(golden_angle * i), ring * std::sin(golden_angle * i),
+                              z);
     }
     out.weight.assign(out.unit.size(), 1.0 / count);
     return out;

@@ -10,8 +10,8 @@ namespace zskel {
 
 EmbreeScene::EmbreeScene(const Surface& surface) : device_(rtcNewDevice(nullptr)) {
     if (device_ == nullptr) {
-        throw Error(ExitCode::Backend,
-                    fmt::format("Embree gives no device (error {})", static_cast<int>(rtcGetDeviceError(nullptr))));
+        throw Error(ExitCode::Backend, fmt::format("Embree gives no device (error {})",
+                                                   static_cast<int>(rtcGetDeviceError(nullptr))));
     }
     scene_ = rtcNewScene(device_);
     rtcSetSceneFlags(scene_, static_cast<RTCSceneFlags>(RTC_SCENE_FLAG_ROBUST |
@@ -23,7 +23,8 @@ EmbreeScene::EmbreeScene(const Surface& surface) : device_(rtcNewDevice(nullptr)
     if (vertices == nullptr) throw std::bad_alloc();
     std::memcpy(vertices, surface.positions.data(), surface.positions.size() * sizeof(Vec3));
     rtcSetSharedGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3,
-                               surface.triangles.data(), 0, sizeof(Triangle), surface.triangles.size());
+                               surface.triangles.data(), 0, sizeof(Triangle),
+                               surface.triangles.size());
     rtcCommitGeometry(geometry);
     rtcAttachGeometry(scene_, geometry);
     rtcReleaseGeometry(geometry);

@@ -6,8 +6,8 @@
 
 namespace zskel {
 
-/// An Embree scene over a surface's triangles (not copied; the surface must outlive it). Private to the
-/// ray source and `SurfaceQuery`; robust mode, so that no ray slips through a shared edge.
+/// An Embree scene over a surface's triangles (not copied; the surface must outlive it). Private to
+/// the ray source and `SurfaceQuery`; robust mode, so that no ray slips through a shared edge.
 class EmbreeScene {
   public:
     explicit EmbreeScene(const Surface& surface);

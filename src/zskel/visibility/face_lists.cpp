@@ -5,13 +5,13 @@ namespace {
 
 // Nine comparisons tell on which side of every face pyramid's planes a point lies.
 enum Code : unsigned {
-    kX = 1u << 0,        // x > 0
+    kX = 1u << 0,  // x > 0
     kY = 1u << 1,
     kZ = 1u << 2,
-    kXOverY = 1u << 3,   // x > y
+    kXOverY = 1u << 3,  // x > y
     kXOverZ = 1u << 4,
     kYOverZ = 1u << 5,
-    kXPlusY = 1u << 6,   // x + y > 0
+    kXPlusY = 1u << 6,  // x + y > 0
     kXPlusZ = 1u << 7,
     kYPlusZ = 1u << 8,
 };
@@ -50,8 +50,8 @@ void list_faces(const Surface& surface, const Vec3& eye, FaceLists& lists) {
         const unsigned a = lists.vertex_codes[tri.x];
         const unsigned b = lists.vertex_codes[tri.y];
         const unsigned c = lists.vertex_codes[tri.z];
-        const unsigned some = a | b | c;   // bits set at some corner
-        const unsigned all = a & b & c;    // bits set at every corner
+        const unsigned some = a | b | c;  // bits set at some corner
+        const unsigned all = a & b & c;   // bits set at every corner
         for (std::size_t f = 0; f < kPyramids.size(); ++f) {
             const Pyramid& pyramid = kPyramids[f];
             const bool outside = (pyramid.set & ~some) != 0 || (pyramid.clear & all) != 0;

@@ -16,7 +16,8 @@ float clearance_ahead(const Directions& directions, const MapView& map, const DV
     double least = kInfinity;
     for (std::size_t i = 0; i < directions.size(); ++i) {
         const double cosine = glm::dot(directions.unit[i], force) / strength;
-        if (cosine >= kAheadCosine) least = std::min(least, static_cast<double>(map.distance[i]) * cosine);
+        if (cosine >= kAheadCosine)
+            least = std::min(least, static_cast<double>(map.distance[i]) * cosine);
     }
     return static_cast<float>(least);
 }

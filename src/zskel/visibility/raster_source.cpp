@@ -1,6 +1,6 @@
-// The Z-buffer that the paper left as future work: on a face with axis direction d = (u, v, 1), 1/z is
-// affine over a triangle, so with w = z and z_clip = near the depth buffer is near/z, and distance_radial
-// is |d| near / depth.
+// The Z-buffer that the paper left as future work: on a face with axis direction d = (u, v, 1), 1/z
+// is affine over a triangle, so with w = z and z_clip = near the depth buffer is near/z, and
+// distance_radial is |d| near / depth.
 #include "zskel/visibility/raster_source.h"
 
 #include <algorithm>
@@ -34,9 +34,9 @@ struct DrawCommand {
 // What one pass draws: for every face of every eye one command over its own stretch of indices.
 struct DrawList {
     std::vector<DrawCommand> commands;
-    std::vector<Triangle> corners;           // the index buffer
-    std::vector<std::uint32_t> triangles;    // the number of each of `corners`
-    std::vector<FaceLists> eyes;             // scratch
+    std::vector<Triangle> corners;         // the index buffer
+    std::vector<std::uint32_t> triangles;  // the number of each of `corners`
+    std::vector<FaceLists> eyes;           // scratch
 
     void build(const Surface& surface, std::span<const Vec3> positions) {
         if (eyes.size() < positions.size()) eyes.resize(positions.size());
@@ -83,7 +83,8 @@ class RasterPipeline {
         axial_to_radial_.reserve(directions_.size());
         for (std::size_t i = 0; i < directions_.size(); ++i) {
             const double length = glm::length(texel_direction(texel_at(i, face_px), face_px));
-            axial_to_radial_.push_back(static_cast<float>(length * static_cast<double>(kNearPlane)));
+            axial_to_radial_.push_back(
+                static_cast<float>(length * static_cast<double>(kNearPlane)));
         }
         context_.run("preparing the raster pipeline", [&](const gl::Api& gl) { prepare(gl); });
     }
@@ -91,7 +92,8 @@ class RasterPipeline {
     ~RasterPipeline() {
         context_.release("releasing the raster pipeline", [&](const gl::Api& gl) {
             if (target_) target_->destroy(gl);
-            for (const StreamBuffer* buffer : {&eyes_, &indices_, &commands_}) gl.DeleteBuffers(1, &buffer->name);
+            for (const StreamBuffer* buffer : {&eyes_, &indices_, &commands_})
+                gl.DeleteBuffers(1, &buffer->name);
             gl.DeleteBuffers(1, &layers_);
             gl.DeleteProgram(program_);
         });
@@ -108,12 +110,13 @@ class RasterPipeline {
         const std::size_t by_layers = static_cast<std::size_t>(context_.info().max_layers) / kFaces;
         const std::size_t by_texels = (std::size_t{1} << 23) / directions_.size();
         const std::size_t by_indices = (std::size_t{1} << 22) / triangles;
-        return std::max<std::size_t>(1, std::min({by_layers, by_texels, by_indices, std::size_t{256}}));
+        return std::max<std::size_t>(
+            1, std::min({by_layers, by_texels, by_indices, std::size_t{256}}));
     }
 
     // Draws every face of every eye and reads distances and triangle numbers back.
-    void render(const Surface& surface, GLuint vertex_array, std::span<const Vec3> eyes, std::span<float> distance,
-                std::span<std::uint32_t> id) {
+    void render(const Surface& surface, GLuint vertex_array, std::span<const Vec3> eyes,
+                std::span<float> distance, std::span<std::uint32_t> id) {
         list_.build(surface, eyes);
         context_.run("rendering cube maps",
                      [&](const gl::Api& gl) { draw(gl, vertex_array, eyes, distance, id); });
@@ -131,7 +134,8 @@ class RasterPipeline {
                                           {GL_FRAGMENT_SHADER, "depth.frag", glsl::kDepthFrag}});
         std::vector<GLuint> numbers(static_cast<std::size_t>(context_.info().max_layers));
         std::iota(numbers.begin(), numbers.end(), 0u);
-        layers_ = gl::make_buffer(gl, numbers.data(), static_cast<GLsizeiptr>(numbers.size() * sizeof(GLuint)));
+        layers_ = gl::make_buffer(gl, numbers.data(),
+                                  static_cast<GLsizeiptr>(numbers.size() * sizeof(GLuint)));
         gl.UseProgram(program_);
         gl.Uniform1f(gl::uniform(gl, program_, "near_plane"), kNearPlane);
         std::array<glm::mat3, kFaces> face_from_world{};
@@ -143,8 +147,8 @@ class RasterPipeline {
                             &face_from_world[0][0][0]);
     }
 
-    void draw(const gl::Api& gl, GLuint vertex_array, std::span<const Vec3> eyes, std::span<float> depth,
-              std::span<std::uint32_t> id) {
+    void draw(const gl::Api& gl, GLuint vertex_array, std::span<const Vec3> eyes,
+              std::span<float> depth, std::span<std::uint32_t> id) {
         const int layers = static_cast<int>(eyes.size()) * kFaces;
         if (!target_ || target_->layers() < layers) {
             if (target_) target_->destroy(gl);
@@ -166,7 +170,8 @@ class RasterPipeline {
         target_->read(gl, layers, depth, id);
     }
 
-    // In place: near/z becomes a distance, and a triangle's number in its draw its number in the solid.
+    // In place: near/z becomes a distance, and a triangle's number in its draw its number in the
+    // solid.
     void resolve(std::size_t eye, std::span<float> texels, std::span<std::uint32_t> ids) const {
         const std::size_t per_face = texels.size() / kFaces;
         for (std::size_t i = 0; i < texels.size(); ++i) {
@@ -201,7 +206,8 @@ class RasterSource : public VisibilitySource {
   public:
     RasterSource(const Surface& solid, RasterPipeline& pipeline)
         : VisibilitySource(solid, pipeline.directions()), pipeline_(pipeline) {
-        pipeline_.context().run("preparing the raster source", [&](const gl::Api& gl) { upload(gl); });
+        pipeline_.context().run("preparing the raster source",
+                                [&](const gl::Api& gl) { upload(gl); });
     }
 
     ~RasterSource() override {
@@ -225,8 +231,9 @@ class RasterSource : public VisibilitySource {
 
   private:
     void upload(const gl::Api& gl) {
-        vertices_ = gl::make_buffer(gl, solid().positions.data(),
-                                    static_cast<GLsizeiptr>(solid().positions.size() * sizeof(Vec3)));
+        vertices_ =
+            gl::make_buffer(gl, solid().positions.data(),
+                            static_cast<GLsizeiptr>(solid().positions.size() * sizeof(Vec3)));
         gl.CreateVertexArrays(1, &vertex_array_);
         gl.VertexArrayVertexBuffer(vertex_array_, 0, vertices_, 0, sizeof(Vec3));
         gl.VertexArrayAttribFormat(vertex_array_, 0, 3, GL_FLOAT, GL_FALSE, 0);
@@ -246,13 +253,16 @@ class RasterSource : public VisibilitySource {
 
 }  // namespace
 
-void RasterPipelineDeleter::operator()(RasterPipeline* pipeline) const { delete pipeline; }
+void RasterPipelineDeleter::operator()(RasterPipeline* pipeline) const {
+    delete pipeline;
+}
 
 RasterPipelinePtr make_raster_pipeline(int face_px, gl::Context& context) {
     return RasterPipelinePtr(new RasterPipeline(face_px, context));
 }
 
-std::unique_ptr<VisibilitySource> make_raster_source(const Surface& solid, RasterPipeline& pipeline) {
+std::unique_ptr<VisibilitySource> make_raster_source(const Surface& solid,
+                                                     RasterPipeline& pipeline) {
     return std::make_unique<RasterSource>(solid, pipeline);
 }
 

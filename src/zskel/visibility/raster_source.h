@@ -10,7 +10,8 @@ namespace zskel {
 /// Near plane of the cube maps, world units: surface nearer to an eye than this is not seen.
 inline constexpr float kNearPlane = 1e-6f;
 
-/// What all raster sources of one context share: shaders, the depth target, and the tables of one map size.
+/// What all raster sources of one context share: shaders, the depth target, and the tables of one
+/// map size.
 class RasterPipeline;
 struct RasterPipelineDeleter {
     void operator()(RasterPipeline* pipeline) const;
@@ -21,9 +22,11 @@ using RasterPipelinePtr = std::unique_ptr<RasterPipeline, RasterPipelineDeleter>
 /// @throws GlError, UsageError (face_px).
 RasterPipelinePtr make_raster_pipeline(int face_px, gl::Context& context);
 
-/// Visibility by the Z-buffer: the solid is rendered into a layered reversed-Z 32F depth target with the
-/// triangle's number beside it, and read back. Nothing is culled, so that the share of back faces tells when
-/// an eye has left the solid. `solid` and `pipeline` must outlive the source. @throws GlError.
-std::unique_ptr<VisibilitySource> make_raster_source(const Surface& solid, RasterPipeline& pipeline);
+/// Visibility by the Z-buffer: the solid is rendered into a layered reversed-Z 32F depth target
+/// with the triangle's number beside it, and read back. Nothing is culled, so that the share of
+/// back faces tells when an eye has left the solid. `solid` and `pipeline` must outlive the source.
+/// @throws GlError.
+std::unique_ptr<VisibilitySource> make_raster_source(const Surface& solid,
+                                                     RasterPipeline& pipeline);
 
 }  // namespace zskel

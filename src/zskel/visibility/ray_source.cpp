@@ -1,5 +1,5 @@
-// Visibility by rays: the reference that the Z-buffer is measured against. Embree's packets of 16 for
-// speed; and the plain form, every ray against every triangle (Moeller and Trumbore 1997).
+// Visibility by rays: the reference that the Z-buffer is measured against. Embree's packets of 16
+// for speed; and the plain form, every ray against every triangle (Moeller and Trumbore 1997).
 #include "zskel/visibility/ray_source.h"
 
 #include <cmath>
@@ -82,7 +82,8 @@ class BruteForceSource : public VisibilitySource {
     }
 
   private:
-    void cast_ray(const Vec3& eye, const Vec3& direction, float& distance, std::uint32_t& id) const {
+    void cast_ray(const Vec3& eye, const Vec3& direction, float& distance,
+                  std::uint32_t& id) const {
         distance = kInfinity;
         id = kNone;
         const Surface& surface = solid();
@@ -111,7 +112,8 @@ class BruteForceSource : public VisibilitySource {
 
 }  // namespace
 
-std::unique_ptr<VisibilitySource> make_ray_source(const Surface& solid, Directions directions, RayMethod method) {
+std::unique_ptr<VisibilitySource> make_ray_source(const Surface& solid, Directions directions,
+                                                  RayMethod method) {
     if (method == RayMethod::BruteForce) {
         return std::make_unique<BruteForceSource>(solid, std::move(directions));
     }

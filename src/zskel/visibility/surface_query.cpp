@@ -1,5 +1,6 @@
-// Nearest points and segments through Embree's hierarchy; the closest point of a triangle is found by
-// the regions of its barycentric coordinates (Ericson, Real-Time Collision Detection, 2005, 5.1.5).
+// Nearest points and segments through Embree's hierarchy; the closest point of a triangle is found
+// by the regions of its barycentric coordinates (Ericson, Real-Time Collision Detection,
+// 2005, 5.1.5).
 #include "zskel/visibility/surface_query.h"
 
 #include <algorithm>
@@ -25,7 +26,8 @@ Vec3 nearest_on_triangle(const Vec3& p, const Vec3& a, const Vec3& b, const Vec3
         const float wa = glm::dot(glm::cross(c - b, p - b), normal);
         const float wb = glm::dot(glm::cross(a - c, p - c), normal);
         const float wc = glm::dot(glm::cross(b - a, p - a), normal);
-        if (wa >= 0.0f && wb >= 0.0f && wc >= 0.0f) return p - normal * (glm::dot(p - a, normal) / area2);
+        if (wa >= 0.0f && wb >= 0.0f && wc >= 0.0f)
+            return p - normal * (glm::dot(p - a, normal) / area2);
     }
     Vec3 best = nearest_on_segment(p, a, b);
     for (const Vec3& other : {nearest_on_segment(p, b, c), nearest_on_segment(p, c, a)}) {

@@ -24,7 +24,7 @@ class SurfaceQuery {
     Nearest nearest(const Vec3& point) const;
 
     struct Hit {
-        float fraction = 0.0f;        ///< of the way from `from` to `to`
+        float fraction = 0.0f;  ///< of the way from `from` to `to`
         std::uint32_t triangle = kNone;
     };
     /// The first triangle that the segment meets; nothing when it is free.

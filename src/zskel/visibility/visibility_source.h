@@ -13,7 +13,7 @@ namespace zskel {
 
 /// Maps of a batch of eyes, one after the other.
 struct MapBatch {
-    std::size_t directions = 0;           ///< entries a map
+    std::size_t directions = 0;  ///< entries a map
     std::vector<float> distance;
     std::vector<std::uint32_t> id;
 
@@ -21,8 +21,9 @@ struct MapBatch {
     MapView view(std::size_t eye) const;
 };
 
-/// The seam between how visibility is found and what is done with it. A source is prepared for one solid:
-/// its eyes see that solid's triangles and nothing else. Not thread-safe; calls parallelise inside.
+/// The seam between how visibility is found and what is done with it. A source is prepared for one
+/// solid: its eyes see that solid's triangles and nothing else. Not thread-safe; calls parallelise
+/// inside.
 class VisibilitySource {
   public:
     VisibilitySource(const Surface& solid, Directions directions);

@@ -1,0 +1,150 @@
+#include "zskel/extract.h"
+
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+
+#include "support/shapes.h"
+#include "zskel/core/parallel.h"
+#include "zskel/io/skeleton_json.h"
+
+using namespace zskel;
+
+namespace {
+
+ExtractResult extract_by_rays(const Mesh& mesh, ExtractOptions options = {}, int face_px = 8) {
+    BackendOptions backend_options;
+    backend_options.kind = BackendKind::Ray;
+    backend_options.face_px = face_px;
+    const auto backend = open_backend(backend_options);
+    return extract_skeleton(mesh, options, *backend);
+}
+
+}  // namespace
+
+TEST_CASE(
+    "extract_skeleton: a cube is one node at its centre, within one step (the paper's Figure 3)") {
+    const ExtractResult result = extract_by_rays(test::cube(), {}, 16);
+    REQUIRE(result.graph.nodes.size() == 1);
+    CHECK(glm::length(result.graph.nodes[0].position) <= ExtractOptions{}.steps.step_world);
+    CHECK(result.graph.nodes[0].radius == doctest::Approx(0.5).epsilon(0.01));
+    CHECK(result.graph.edges.empty());
+    CHECK(result.statistics.seeds == 8);
+    CHECK(result.warnings.empty());
+}
+
+TEST_CASE("extract_skeleton: a torus is a ring of nodes along its core") {
+    const ExtractResult result = extract_by_rays(test::torus());
+    CHECK(result.graph.nodes.size() > 8);
+    for (const SkeletonGraph::Node& node : result.graph.nodes) {
+        const double ring = std::hypot(node.position.x, node.position.y);
+        CHECK(ring == doctest::Approx(0.35).epsilon(0.05));
+        CHECK(node.radius == doctest::Approx(0.12).epsilon(0.1));
+    }
+    CHECK(graph_topology(result.graph).components == 1);
+    CHECK(graph_topology(result.graph).cycles >= 1);
+}
+
+TEST_CASE("extract_skeleton: answers in the model's own coordinates") {
+    const Mesh here = test::cylinder(0.2, 1.0, 24, 17);
+    const ExtractResult plain = extract_by_rays(here);
+    // Powers of two, so that the world coordinates are the same to the last bit.
+    const ExtractResult moved = extract_by_rays(test::moved(here, {1024, -512, 64}, 8.0));
+    REQUIRE(plain.graph.nodes.size() == moved.graph.nodes.size());
+    for (std::size_t i = 0; i < plain.graph.nodes.size(); ++i) {
+        const DVec3 expected = plain.graph.nodes[i].position * 8.0 + DVec3(1024, -512, 64);
+        CHECK(glm::distance(moved.graph.nodes[i].position, expected) < 1e-4);
+        CHECK(moved.graph.nodes[i].radius ==
+              doctest::Approx(plain.graph.nodes[i].radius * 8.0).epsilon(1e-4));
+    }
+}
+
+TEST_CASE("extract_skeleton: every input vertex with a face has a node, others have none") {
+    Mesh mesh = test::cylinder(0.2, 1.0, 16, 9);
+    mesh.positions.emplace_back(9, 9, 9);
+    const ExtractResult result = extract_by_rays(mesh);
+    REQUIRE(result.graph.vertex_node.size() == mesh.positions.size());
+    for (std::size_t v = 0; v + 1 < mesh.positions.size(); ++v) {
+        CHECK(result.graph.vertex_node[v] < result.graph.nodes.size());
+    }
+    CHECK(result.graph.vertex_node.back() == kNone);
+    CHECK_FALSE(result.warnings.empty());
+}
+
+TEST_CASE("extract_skeleton: solids get skeletons of their own, and do not see each other") {
+    const Mesh one = test::sphere(0.3, 2);
+    const Mesh pair = test::together(one, test::moved(one, {0.62, 0, 0}));
+    const ExtractResult result = extract_by_rays(pair);
+    CHECK(result.statistics.solids == 2);
+    REQUIRE(result.graph.nodes.size() == 2);
+    CHECK(glm::length(result.graph.nodes[0].position) < 0.02);
+    CHECK(glm::distance(result.graph.nodes[1].position, DVec3(0.62, 0, 0)) < 0.02);
+    CHECK(graph_topology(result.graph).components == 2);
+}
+
+TEST_CASE("extract_skeleton: the same at one thread and at many") {
+    const Mesh mesh = test::torus(0.35, 0.12, 24, 12);
+    set_thread_limit(1);
+    const ExtractResult one = extract_by_rays(mesh);
+    set_thread_limit(0);
+    const ExtractResult many = extract_by_rays(mesh);
+    CHECK(skeleton_obj(one.graph) == skeleton_obj(many.graph));
+    CHECK(one.graph.vertex_node == many.graph.vertex_node);
+}
+
+TEST_CASE("extract_skeleton: progress is told, and can stop the work") {
+    ExtractOptions options;
+    std::vector<std::string> stages;
+    options.progress = [&](std::string_view stage, double) {
+        if (stages.empty() || stages.back() != stage) stages.emplace_back(stage);
+        return true;
+    };
+    extract_by_rays(test::sphere(0.5, 2), options);
+    CHECK(stages == std::vector<std::string>{"prepare", "seeds", "settle", "cluster", "connect"});
+    options.progress = [](std::string_view stage, double) { return stage != "settle"; };
+    CHECK_THROWS_AS(extract_by_rays(test::sphere(0.5, 2), options), Cancelled);
+}
+
+TEST_CASE("skeleton_json: holds nodes, edges, vertex map, statistics and provenance") {
+    const Mesh mesh = test::cylinder(0.2, 1.0, 16, 9);
+    ExtractOptions options;
+    options.steps.keep_paths = true;
+    const ExtractResult result = extract_by_rays(mesh, options);
+    Provenance provenance;
+    provenance.model = "a \"quoted\"\nname.obj";
+    const auto json = nlohmann::json::parse(skeleton_json(result, provenance, {true, true}));
+    CHECK(json["format"] == "zskel-skeleton");
+    CHECK(json["version"] == 1);
+    CHECK(json["nodes"].size() == result.graph.nodes.size());
+    CHECK(json["nodes"][0]["position"][2] == result.graph.nodes[0].position.z);
+    CHECK(json["edges"].size() == result.graph.edges.size());
+    CHECK(json["vertex_node"].size() == mesh.positions.size());
+    CHECK(json["statistics"]["evaluations"] == result.statistics.evaluations);
+    CHECK(json["provenance"]["model"] == provenance.model);
+    REQUIRE(json["seeds"].size() == result.seeds.size());
+    CHECK(json["seeds"][3]["path"].size() == json["seeds"][3]["steps"].get<std::size_t>() + 1);
+}
+
+TEST_CASE("skeleton_obj: a v for each node and an l for each edge") {
+    SkeletonGraph graph;
+    graph.nodes = {{{0.5, 0, -1e-9}, 1, 0}, {{1, 2, 3}, 1, 0}};
+    graph.edges = {{0, 1}};
+    CHECK(skeleton_obj(graph) ==
+          "# zskel curve skeleton: v = node, l = edge\nv 0.5 0 -1e-09\nv 1 2 3\nl 1 2\n");
+}
+
+TEST_CASE("open_backend: options that make no sense together are usage errors") {
+    BackendOptions options;
+    options.kind = BackendKind::Gl;
+    options.rays = 100;
+    CHECK_THROWS_AS(open_backend(options), UsageError);
+    options = {};
+    options.kind = BackendKind::Ray;
+    options.gpu = 0;
+    CHECK_THROWS_AS(open_backend(options), UsageError);
+    options = {};
+    options.face_px = 2;
+    CHECK_THROWS_AS(open_backend(options), UsageError);
+    CHECK_THROWS_AS(parse_backend("vulkan"), UsageError);
+}

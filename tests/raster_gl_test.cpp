@@ -1,0 +1,173 @@
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "support/shapes.h"
+#include "zskel/compare.h"
+#include "zskel/visibility/backend.h"
+#include "zskel/visibility/cube_map.h"
+
+using namespace zskel;
+
+namespace {
+
+std::unique_ptr<Backend> backend_of(BackendKind kind, int face_px = 16) {
+    BackendOptions options;
+    options.kind = kind;
+    options.face_px = face_px;
+    return open_backend(options);
+}
+
+bool has_osmesa() {
+    try {
+        backend_of(BackendKind::Osmesa);
+        return true;
+    } catch (const GlError&) {
+        return false;
+    }
+}
+
+}  // namespace
+
+TEST_CASE("raster: a wall's distance is exact at every texel") {
+    const PreparedSurface prepared = prepare_surface(test::cube());
+    const auto backend = backend_of(BackendKind::Gl);
+    const auto source = backend->prepare(prepared.surface);
+    const std::vector<Vec3> eyes{{0.125f, -0.25f, 0.0625f}, {0.49f, 0.49f, 0.49f}, {0, 0, 0}};
+    MapBatch maps;
+    source->render(eyes, maps);
+    for (std::size_t e = 0; e < eyes.size(); ++e) {
+        const MapView map = maps.view(e);
+        for (std::size_t i = 0; i < maps.directions; ++i) {
+            const DVec3& d = source->directions().unit[i];
+            double nearest = 1e9;
+            for (int k = 0; k < 3; ++k) {
+                if (d[k] != 0.0)
+                    nearest = std::min(nearest, ((d[k] > 0 ? 0.5 : -0.5) - eyes[e][k]) / d[k]);
+            }
+            CHECK(map.distance[i] == doctest::Approx(nearest).epsilon(1e-5));
+        }
+    }
+}
+
+TEST_CASE("raster: the triangle that a texel names is the one its direction hits") {
+    const PreparedSurface prepared = prepare_surface(test::torus());
+    const auto backend = backend_of(BackendKind::Gl);
+    const auto source = backend->prepare(prepared.surface);
+    const Vec3 eye = prepared.surface.world_from_model.to_world({0.33, 0.03, 0.02});
+    MapBatch maps;
+    source->render(std::span(&eye, 1), maps);
+    for (std::size_t i = 0; i < maps.directions; ++i) {
+        REQUIRE(maps.id[i] < prepared.surface.triangles.size());
+        const Triangle& t = prepared.surface.triangles[maps.id[i]];
+        const DVec3 hit =
+            DVec3(eye) + source->directions().unit[i] * static_cast<double>(maps.distance[i]);
+        const DVec3 normal(prepared.surface.triangle_normals[maps.id[i]]);
+        CHECK(std::abs(glm::dot(hit - DVec3(prepared.surface.positions[t.x]), normal)) < 1e-5);
+    }
+}
+
+TEST_CASE("raster: a large batch holds what single eyes hold, eye by eye") {
+    const PreparedSurface prepared = prepare_surface(test::torus());
+    const auto backend = backend_of(BackendKind::Gl, 8);
+    const auto source = backend->prepare(prepared.surface);
+    std::vector<Vec3> eyes;
+    for (int i = 0; i < 700; ++i) {  // several passes: a pass takes 256 eyes at most
+        const double a = 0.01 * i;
+        eyes.push_back(prepared.surface.world_from_model.to_world(
+            {0.35 * std::cos(a), 0.35 * std::sin(a), 0.0}));
+    }
+    MapBatch all;
+    source->render(eyes, all);
+    for (const std::size_t e : {0u, 255u, 256u, 699u}) {
+        MapBatch single;
+        source->render(std::span(&eyes[e], 1), single);
+        CHECK(std::equal(single.distance.begin(), single.distance.end(),
+                         all.view(e).distance.begin()));
+        CHECK(std::equal(single.id.begin(), single.id.end(), all.view(e).id.begin()));
+    }
+}
+
+TEST_CASE("raster: misses of an open mesh are +inf and counted") {
+    Mesh open = test::cube();
+    open.triangles.resize(open.triangles.size() - 2);  // without the wall at +x
+    const PreparedSurface prepared = prepare_surface(open);
+    const auto backend = backend_of(BackendKind::Gl);
+    const auto source = backend->prepare(prepared.surface);
+    const Vec3 eye(0.0f);
+    MapBatch maps;
+    source->render(std::span(&eye, 1), maps);
+    const Force force = force_at(source->directions(), maps.view(0));
+    CHECK(force.hit_fraction == doctest::Approx(5.0 / 6.0).epsilon(1e-6));
+    CHECK(force.vector.x > 0.0);  // nothing repels from the open side
+    for (std::size_t i = 0; i < 256; ++i) {
+        CHECK(maps.distance[i] == kInfinity);
+        CHECK(maps.id[i] == kNone);
+    }
+}
+
+TEST_CASE("raster: equal depths show the lowest triangle") {
+    // Two coincident squares that share no vertex, so that neither is dropped as a duplicate face.
+    Mesh mesh = test::cube();
+    for (const double turn : {0.0, 1.0}) {
+        const auto n = static_cast<std::uint32_t>(mesh.positions.size());
+        mesh.positions.insert(
+            mesh.positions.end(),
+            {{0.25, -0.4 - turn, -0.4}, {0.25, 0.4 + turn, -0.4}, {0.25, 0.0, 0.4 + turn}});
+        test::add_triangle(mesh, n, n + 1, n + 2);
+    }
+    for (DVec3& p : mesh.positions) p = glm::clamp(p, -0.5, 0.5);
+    const PreparedSurface prepared = prepare_surface(mesh);
+    const auto backend = backend_of(BackendKind::Gl);
+    const auto source = backend->prepare(prepared.surface);
+    const Vec3 eye(0.0f, 0.0f, -0.3f);
+    MapBatch maps;
+    source->render(std::span(&eye, 1), maps);
+    const std::size_t ahead = texel_index(texel_of_direction({1, 0.01, 0.01}, 16), 16);
+    CHECK(maps.id[ahead] == 12);
+}
+
+TEST_CASE("raster against rays: within bounds on smooth, sharp, thin and nested solids") {
+    const auto raster = backend_of(BackendKind::Gl);
+    const auto rays = backend_of(BackendKind::Ray);
+    Mesh plate = test::cylinder(0.3, 1.0, 24, 9);
+    for (DVec3& p : plate.positions) p.x *= 0.02;
+    const Mesh nested =
+        test::together(test::sphere(0.5, 2), test::moved(test::sphere(0.2, 2), {0.1, 0, 0}));
+    for (const Mesh& mesh : {test::torus(), test::cube(), plate, nested}) {
+        const SourceComparison c = compare_backends(mesh, *raster, *rays, 12, {});
+        CHECK(c.eyes >= 6);
+        CHECK(c.one_sided == 0);
+        CHECK(is_within(c, {}));
+    }
+}
+
+TEST_CASE("raster: EGL and OSMesa agree with each other") {
+    if (!has_osmesa()) {
+        MESSAGE("no OSMesa here");
+        return;
+    }
+    const auto egl = backend_of(BackendKind::Egl);
+    const auto osmesa = backend_of(BackendKind::Osmesa);
+    const SourceComparison c = compare_backends(test::torus(), *egl, *osmesa, 12, {});
+    CHECK(is_within(c, {}));
+    CHECK(c.id_agreement_inner == 1.0);
+}
+
+TEST_CASE("paper's method, raster against rays: seeds, nodes and skeletons agree") {
+    const Mesh mesh = test::torus(0.35, 0.12, 24, 12);
+    const ExtractResult a = extract_skeleton(mesh, {}, *backend_of(BackendKind::Gl));
+    const ExtractResult b = extract_skeleton(mesh, {}, *backend_of(BackendKind::Ray));
+    REQUIRE(a.seeds.size() == b.seeds.size());
+    const double two_steps = 2.0 * ExtractOptions{}.steps.step_world / a.world_from_model.scale;
+    const auto near = std::count_if(a.seeds.begin(), a.seeds.end(), [&](const SeedReport& seed) {
+        return glm::distance(seed.end,
+                             b.seeds[static_cast<std::size_t>(&seed - a.seeds.data())].end) <=
+               two_steps;
+    });
+    CHECK(static_cast<double>(near) >= 0.95 * static_cast<double>(a.seeds.size()));
+    const auto nodes_a = static_cast<double>(a.graph.nodes.size());
+    const auto nodes_b = static_cast<double>(b.graph.nodes.size());
+    CHECK(std::abs(nodes_a - nodes_b) <= 0.1 * nodes_b);
+}

@@ -1,0 +1,29 @@
+// zskel check: what a model is, and what extract would do about its defects.
+#include "command.h"
+#include "zskel/io/report.h"
+#include "zskel/mesh/check.h"
+#include "zskel/mesh/read_mesh.h"
+
+namespace zskel::cli {
+
+void add_check_command(CLI::App& app, const Common&, Run& run) {
+    struct Arguments {
+        std::string model;
+        bool as_json = false;
+    };
+    CLI::App* command =
+        app.add_subcommand("check", "Report a model's topology and defects; nothing is changed");
+    auto arguments = std::make_shared<Arguments>();
+    command->add_option("model", arguments->model, "OBJ, OFF, PLY or STL; - reads standard input")
+        ->required();
+    command->add_flag("--json", arguments->as_json, "Print JSON");
+    command->callback([&run, arguments] {
+        run = [arguments] {
+            const MeshReport report = check_mesh(read_mesh(arguments->model));
+            print(arguments->as_json ? to_json(report) : to_text(report));
+            return ExitCode::Ok;
+        };
+    });
+}
+
+}  // namespace zskel::cli
