@@ -13,7 +13,9 @@
 #include <cstring>
 #include <filesystem>
 #include <memory>
+#include <new>
 #include <optional>
+#include <stdexcept>
 
 #include "zskel/core/error.h"
 #include "zskel/mesh/formats.h"
@@ -37,7 +39,7 @@ struct CloseFile {
 };
 
 [[noreturn]] void fail_reading(const std::string& path, int error) {
-    throw InputError(fmt::format("{}: cannot be read: {}; expected a {} file", path,
+    throw InputError(fmt::format("{}: cannot be read: {}; expected an {} file", path,
                                  std::strerror(error), kForms));
 }
 
@@ -99,7 +101,7 @@ MeshFormat format_of_content(std::string_view bytes, const std::string& name) {
 
 }  // namespace
 
-Mesh read_mesh(const std::string& path) {
+Mesh read_mesh(const std::string& path) try {
     const std::vector<std::byte> bytes = read_all(path);
     std::optional<MeshFormat> format = format_of_extension(path);
     if (!format) {
@@ -107,6 +109,10 @@ Mesh read_mesh(const std::string& path) {
         format = format_of_content(text, path);
     }
     return parse_mesh(bytes, *format, path);
+} catch (const std::bad_alloc&) {
+    throw InputError(fmt::format("{}: the model takes more memory than there is", path));
+} catch (const std::length_error&) {
+    throw InputError(fmt::format("{}: the model takes more memory than there can be", path));
 }
 
 Mesh parse_mesh(std::span<const std::byte> bytes, MeshFormat format, const std::string& name) {
