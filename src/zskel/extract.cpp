@@ -5,6 +5,7 @@
 #include <array>
 #include <chrono>
 #include <numeric>
+#include <utility>
 
 #include "zskel/core/log.h"
 #include "zskel/mesh/solid.h"
@@ -195,10 +196,9 @@ ExtractResult extract_skeleton(const Mesh& mesh, const ExtractOptions& options, 
     ExtractResult result;
     Stages stages(result.statistics, options);
     stages.begin("prepare");
-    const PreparedSurface prepared = prepare_surface(mesh);
+    PreparedSurface prepared = prepare_surface(mesh);
     const std::vector<Solid> solids = split_solids(prepared);
     result.repairs = prepared.repairs;
-    result.world_from_model = prepared.surface.world_from_model;
     result.statistics.faces = prepared.surface.triangles.size();
     result.statistics.vertices = prepared.surface.positions.size();
     result.statistics.solids = solids.size();
@@ -209,6 +209,7 @@ ExtractResult extract_skeleton(const Mesh& mesh, const ExtractOptions& options, 
     }
     assembler.map_vertices(prepared);
     stages.end();
+    result.surface = std::move(prepared.surface);
     add_warnings(mesh, solids, result);
     return result;
 }

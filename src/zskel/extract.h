@@ -76,7 +76,7 @@ struct ExtractResult {
     ExtractStatistics statistics;
     std::vector<Repair> repairs;
     std::vector<std::string> warnings;
-    Similarity world_from_model;
+    Surface surface;  ///< what was worked on: all solids, world space
 };
 
 /// The whole pipeline: mesh -> surface -> solids -> seeds -> settled seeds -> clusters -> graph.

@@ -9,6 +9,7 @@
 #include "zskel/core/log.h"
 #include "zskel/extract.h"
 #include "zskel/io/output_file.h"
+#include "zskel/io/picture.h"
 #include "zskel/io/skeleton_json.h"
 #include "zskel/mesh/read_mesh.h"
 
@@ -20,6 +21,9 @@ struct Arguments {
     std::string output = "-";
     std::string format;
     bool stats = false;
+    std::string picture;
+    std::string picture_paths;
+    PictureOptions picture_options;
     JsonParts parts;
     ExtractOptions extract;
     BackendOptions backend;
@@ -70,10 +74,35 @@ std::string skeleton_text(const Arguments& arguments, const ExtractResult& resul
     return obj ? skeleton_obj(result.graph) : skeleton_json(result, provenance, arguments.parts);
 }
 
+void draw_pictures(const Arguments& arguments, const ExtractResult& result, gl::Context& context) {
+    const std::string title = fmt::format("zskel: {}", arguments.model);
+    if (!arguments.picture.empty()) {
+        write_png(arguments.picture,
+                  draw_skeleton(context, result.surface, result.graph, arguments.picture_options),
+                  title);
+    }
+    if (arguments.picture_paths.empty()) return;
+    const Similarity& world = result.surface.world_from_model;
+    std::vector<std::vector<Vec3>> paths;
+    for (const SeedReport& seed : result.seeds) {
+        std::vector<Vec3>& path = paths.emplace_back();
+        for (const DVec3& p : seed.path) path.push_back(world.to_world(p));
+    }
+    std::vector<Vec3> nodes;
+    for (const SkeletonGraph::Node& node : result.graph.nodes)
+        nodes.push_back(world.to_world(node.position));
+    write_png(arguments.picture_paths,
+              draw_paths(context, result.surface, paths, nodes, arguments.picture_options), title);
+}
+
 ExitCode extract(const Arguments& given, const Common& common) {
     Arguments arguments = given;
-    arguments.extract.steps.keep_paths = arguments.parts.paths;
+    arguments.extract.steps.keep_paths = arguments.parts.paths || !arguments.picture_paths.empty();
     const Mesh mesh = read_mesh(arguments.model);
+    // A picture that cannot be drawn is known before the work starts, not after.
+    std::unique_ptr<gl::Context> picture_context;
+    if (!arguments.picture.empty() || !arguments.picture_paths.empty())
+        picture_context = open_picture_context();
     const std::unique_ptr<Backend> backend = open_backend(arguments.backend);
     ExtractResult result;
     {
@@ -85,6 +114,7 @@ ExitCode extract(const Arguments& given, const Common& common) {
     }
     const Provenance provenance{arguments.model,   mesh.hash,         common.command,
                                 arguments.extract, arguments.backend, backend->info()};
+    if (picture_context) draw_pictures(arguments, result, *picture_context);
     write_output_text(arguments.output, skeleton_text(arguments, result, provenance));
     log_info("{} nodes, {} edges; {} evaluations of {} seeds in {:.2f} s by {}",
              result.graph.nodes.size(), result.graph.edges.size(), result.statistics.evaluations,
@@ -139,6 +169,26 @@ void add_extract_command(CLI::App& app, const Common& common, Run& run) {
     command->add_flag("--with-paths", arguments->parts.paths, "Add every seed's path too");
     command->add_flag("--stats", arguments->stats,
                       "Print a row of the paper's Table 1 to standard error");
+    command->add_option("--picture", arguments->picture,
+                        "Draw the skeleton in the translucent model (PNG)");
+    command->add_option("--picture-paths", arguments->picture_paths,
+                        "Draw the seeds' paths and the nodes (PNG; the paper's Figure 3)");
+    command
+        ->add_option_function<std::string>(
+            "--view",
+            [arguments](const std::string& text) {
+                arguments->picture_options.view = parse_view(text);
+            },
+            "Where pictures are taken from: front, back, left, right, top, bottom, iso, or "
+            "AZIMUTH,ELEVATION in degrees; "
+            "with ,z at the end z is up")
+        ->type_name("VIEW");
+    command->add_option("--picture-width", arguments->picture_options.width_px, "Pixels")
+        ->capture_default_str()
+        ->check(CLI::Range(16, 8192));
+    command->add_option("--picture-height", arguments->picture_options.height_px, "Pixels")
+        ->capture_default_str()
+        ->check(CLI::Range(16, 8192));
     command->callback([&run, &common, arguments] {
         run = [&common, arguments] { return extract(*arguments, common); };
     });

@@ -135,7 +135,7 @@ std::string skeleton_json(const ExtractResult& result, const Provenance& provena
     out["vertex_node"] = vertex_node_json(result.graph);
     out["statistics"] = statistics_json(result);
     out["warnings"] = result.warnings;
-    out["provenance"] = provenance_json(provenance, result.world_from_model);
+    out["provenance"] = provenance_json(provenance, result.surface.world_from_model);
     if (parts.seeds || parts.paths) out["seeds"] = seeds_json(result, parts);
     return out.dump(1, ' ', false, Json::error_handler_t::replace) + "\n";
 }

@@ -9,6 +9,7 @@ namespace {
 
 struct Component {
     std::vector<Triangle> triangles;
+    std::vector<std::uint32_t> numbers;  // of its triangles in the whole surface
     Vec3 low{kInfinity};
     Vec3 high{-kInfinity};
     bool closed = false;
@@ -20,6 +21,7 @@ std::vector<Component> collect(const PreparedSurface& prepared) {
     for (std::size_t t = 0; t < prepared.component.size(); ++t) {
         Component& part = components[prepared.component[t]];
         part.triangles.push_back(prepared.surface.triangles[t]);
+        part.numbers.push_back(static_cast<std::uint32_t>(t));
         for (int k = 0; k < 3; ++k) {
             const Vec3& p = prepared.surface.positions[part.triangles.back()[k]];
             part.low = glm::min(part.low, p);
@@ -55,8 +57,10 @@ Solid make_solid(const PreparedSurface& prepared, const Component& shell,
     Surface& surface = solid.surface;
     surface.world_from_model = prepared.surface.world_from_model;
     surface.triangles = shell.triangles;
+    solid.triangle = shell.numbers;
     for (const Component* cavity : cavities) {
         for (const Triangle& t : cavity->triangles) surface.triangles.emplace_back(t.x, t.z, t.y);
+        solid.triangle.insert(solid.triangle.end(), cavity->numbers.begin(), cavity->numbers.end());
     }
     for (const Triangle& t : surface.triangles) {
         solid.vertex.insert(solid.vertex.end(), {t.x, t.y, t.z});

@@ -11,6 +11,7 @@ namespace zskel {
 /// solid of its own.
 struct Solid {
     Surface surface;  ///< its own vertices and triangles; cavities face their void
+    std::vector<std::uint32_t> triangle;  ///< of each of its triangles: the number in the whole
     std::vector<std::uint32_t>
         vertex;  ///< of each of its vertices: the number in the whole surface
     std::uint32_t cavity_count = 0;

@@ -77,7 +77,8 @@ Welded weld(const Mesh& mesh, PreparedSurface& out) {
     places.reserve(mesh.positions.size());
     std::size_t merged = 0;
     std::size_t collapsed = 0;
-    for (const Triangle& triangle : mesh.triangles) {
+    for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t) {
+        const Triangle& triangle = mesh.triangles[t];
         Triangle corners;
         for (int k = 0; k < 3; ++k) {
             std::uint32_t& place = out.surface_vertex[triangle[k]];
@@ -94,7 +95,9 @@ Welded weld(const Mesh& mesh, PreparedSurface& out) {
         const bool repeats =
             corners.x == corners.y || corners.y == corners.z || corners.z == corners.x;
         collapsed += repeats ? 1 : 0;
-        if (!repeats) welded.triangles.push_back(corners);
+        if (repeats) continue;
+        welded.triangles.push_back(corners);
+        out.input_triangle.push_back(t);
     }
     const auto unused = static_cast<std::size_t>(
         std::count(out.surface_vertex.begin(), out.surface_vertex.end(), kNone));
@@ -120,11 +123,14 @@ void drop_duplicates(Welded& welded, PreparedSurface& out) {
         ++count;
     }
     if (count == 0) return;
-    std::vector<Triangle> kept;
+    std::size_t kept = 0;
     for (std::size_t t = 0; t < dropped.size(); ++t) {
-        if (!dropped[t]) kept.push_back(welded.triangles[t]);
+        if (dropped[t]) continue;
+        welded.triangles[kept] = welded.triangles[t];
+        out.input_triangle[kept++] = out.input_triangle[t];
     }
-    welded.triangles = std::move(kept);
+    welded.triangles.resize(kept);
+    out.input_triangle.resize(kept);
     out.repairs.push_back({"duplicate faces dropped", count});
 }
 

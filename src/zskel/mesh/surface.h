@@ -40,6 +40,7 @@ struct Repair {
 struct PreparedSurface {
     Surface surface;
     std::vector<std::uint32_t> surface_vertex;  ///< of every input vertex; kNone when unused
+    std::vector<std::uint32_t> input_triangle;  ///< of every triangle: its number in the mesh
     std::vector<std::uint32_t> component;       ///< of every triangle: parts joined by edges
     std::uint32_t component_count = 0;
     std::vector<bool> component_closed;  ///< every edge has exactly two triangles
