@@ -70,24 +70,29 @@ Ball mirrored(const Ball& ball) { return {ball.x, ball.y, -ball.z, ball.w}; }
 
 }  // namespace
 
-std::size_t Shape::find_joint(const Ball& first) const {
-    const glm::dvec3 from(first);
-    const auto distance_to = [&](std::size_t i) {
-        return glm::distance(truth_.nodes[i].position, from);
-    };
-    std::size_t nearest = 0;
-    for (std::size_t i = 1; i < truth_.nodes.size(); ++i) {
-        nearest = distance_to(i) < distance_to(nearest) ? i : nearest;
-    }
+std::size_t Shape::find_joint(const Ball& first, const std::string& from) const {
+    double least = std::numeric_limits<double>::infinity();
+    std::size_t joint = 0;
     for (const TruthLimb& limb : truth_.limbs) {
-        for (const std::size_t end : {limb.nodes.front(), limb.nodes.back()}) {
-            if (distance_to(end) < 0.9 * truth_.nodes[end].radius &&
-                std::find(limb.nodes.begin(), limb.nodes.end(), nearest) != limb.nodes.end()) {
-                return end;
+        if (!from.empty() && limb.name != from) {
+            continue;
+        }
+        for (const std::size_t node : limb.nodes) {
+            const double away = glm::distance(truth_.nodes[node].position, glm::dvec3(first));
+            if (away >= least) {
+                continue;
+            }
+            least = away;
+            joint = node;
+            for (const std::size_t end : {limb.nodes.front(), limb.nodes.back()}) {
+                const Truth::Node& ball = truth_.nodes[end];
+                if (glm::distance(ball.position, glm::dvec3(first)) < 0.9 * ball.radius) {
+                    joint = end;
+                }
             }
         }
     }
-    return nearest;
+    return joint;
 }
 
 void Shape::grow(const std::string& name, const std::vector<Ball>& control,
@@ -98,7 +103,7 @@ void Shape::grow(const std::string& name, const std::vector<Ball>& control,
     }
     TruthLimb part{name, {}, options.is_tube};
     if (!truth_.nodes.empty()) {
-        part.nodes.push_back(find_joint(limb.balls.front()));
+        part.nodes.push_back(find_joint(limb.balls.front(), options.from));
     }
     for (const Ball& ball : limb.balls) {
         const glm::dvec3 position = squeezed_position(limb, ball);

@@ -27,6 +27,7 @@ struct LimbOptions {
     bool is_tube = true;      ///< Its radii are the distances to the surface.
     bool is_flesh = false;    ///< Shapes the surface only; the truth does not know it.
     bool is_loop = false;     ///< Its last ball joins its first.
+    std::string from = {};    ///< The limb that its skeleton hangs on; empty for any.
 };
 
 /// A chain of balls, dense along a smooth curve; the surface is the hull of each ball and the next.
@@ -55,7 +56,7 @@ class Shape {
     const Truth& truth() const { return truth_; }
 
   private:
-    std::size_t find_joint(const Ball& first) const;
+    std::size_t find_joint(const Ball& first, const std::string& from) const;
 
     std::vector<Limb> limbs_;
     Truth truth_;
