@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "command.h"
+#include "depth_files.h"
 #include "zskel/core/log.h"
 #include "zskel/extract.h"
 #include "zskel/io/output_file.h"
@@ -24,6 +25,8 @@ struct Arguments {
     std::string picture;
     std::string picture_paths;
     PictureOptions picture_options;
+    std::string depth_folder;
+    std::vector<std::uint32_t> depth_vertices;
     JsonParts parts;
     ExtractOptions extract;
     BackendOptions backend;
@@ -114,6 +117,10 @@ ExitCode extract(const Arguments& given, const Common& common) {
     }
     const Provenance provenance{arguments.model,   mesh.hash,         common.command,
                                 arguments.extract, arguments.backend, backend->info()};
+    if (!arguments.depth_folder.empty()) {
+        write_trajectories(arguments.depth_folder, arguments.depth_vertices, mesh,
+                           arguments.extract, *backend);
+    }
     if (picture_context) draw_pictures(arguments, result, *picture_context);
     write_output_text(arguments.output, skeleton_text(arguments, result, provenance));
     log_info("{} nodes, {} edges; {} evaluations of {} seeds in {:.2f} s by {}",
@@ -189,6 +196,15 @@ void add_extract_command(CLI::App& app, const Common& common, Run& run) {
     command->add_option("--picture-height", arguments->picture_options.height_px, "Pixels")
         ->capture_default_str()
         ->check(CLI::Range(16, 8192));
+    auto* dump =
+        command->add_option("--dump-depth", arguments->depth_folder,
+                            "Write the cube maps along seeds' paths into this folder (EXR)");
+    command
+        ->add_option(
+            "--dump-vertices", arguments->depth_vertices,
+            "Of the seeds of these input vertices, V,V,...; by default of eight spread evenly")
+        ->delimiter(',')
+        ->needs(dump);
     command->callback([&run, &common, arguments] {
         run = [&common, arguments] { return extract(*arguments, common); };
     });

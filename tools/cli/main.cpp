@@ -64,6 +64,7 @@ int run_program(int argc, char** argv) {
     add_extract_command(app, common, run);
 
     add_check_command(app, common, run);
+    add_depth_command(app, common, run);
     add_compare_command(app, common, run);
     add_doctor_command(app, common, run);
     try {

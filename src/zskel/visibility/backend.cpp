@@ -127,6 +127,7 @@ std::unique_ptr<Backend> open_backend(const BackendOptions& options) {
         info.vendor = context->info().vendor;
         info.renderer = context->info().renderer;
         info.version = context->info().version;
+        info.is_raster = true;
         return std::make_unique<GlBackend>(std::move(info), std::move(context), options.face_px);
     }
     if (options.kind != BackendKind::Auto || options.gpu >= 0) {

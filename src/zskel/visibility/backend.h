@@ -37,6 +37,7 @@ struct BackendInfo {
     std::string renderer;
     std::string version;
     std::vector<gl::FailedAttempt> failed;  ///< candidates tried before it
+    bool is_raster = false;                 ///< a Z-buffer, not rays
     bool is_fallback = false;               ///< `auto` found no GL context and took rays
 };
 
