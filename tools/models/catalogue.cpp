@@ -1,8 +1,10 @@
 #include "catalogue.h"
 
 #include "creatures.h"
+#include "plant.h"
 #include "primitives.h"
 #include "quadrupeds.h"
+#include "vessels.h"
 
 namespace zskel::models {
 namespace {
@@ -23,6 +25,9 @@ const std::vector<Recipe>& catalogue() {
         recipe("hand", shape_hand, {.faces = 2000, .ends = 6}),
         recipe("horse", shape_horse, {.faces = 2000, .ends = 8}),
         recipe("horse_8k", shape_horse, {.faces = 8000, .ends = 8}, 8),
+        recipe("plant", shape_plant, {.faces = 8000, .ends = 15}, 8),
+        {"vessels", [] { return make_vessels("vessels", 0); }},
+        {"vessels_open", [] { return make_vessels("vessels_open", 4); }},
         {"capsule", make_capsule},
         {"y", make_y},
         {"torus", make_torus},
