@@ -75,3 +75,15 @@ TEST_CASE("write_output_text: a folder that is not there is an error that names 
     CHECK_THROWS_WITH_AS(write_output_text("/nonexistent/zskel/a.json", "x"),
                          doctest::Contains("/nonexistent/zskel/a.json"), IoError);
 }
+
+TEST_CASE("write_output_text: a device is written to, never replaced; a link stays a link") {
+    write_output_text("/dev/null", "x");
+    CHECK(fs::is_character_file("/dev/null"));
+    CHECK_THROWS_AS(write_output_text("/dev/full", "x"), IoError);
+    const Folder folder;
+    write_output_text(folder.at("a.json"), "old");
+    fs::create_symlink("a.json", folder.at("link.json"));
+    write_output_text(folder.at("link.json"), "new");
+    CHECK(fs::is_symlink(folder.at("link.json")));
+    CHECK(content(folder.at("a.json")) == "new");
+}

@@ -8,6 +8,7 @@
 #include <cerrno>
 #include <cstdio>
 #include <cstring>
+#include <filesystem>
 
 #include "zskel/core/error.h"
 
@@ -69,13 +70,25 @@ void write_all(std::FILE* file, std::string_view text, const std::string& path) 
 
 void write_output_file(const std::string& path,
                        const std::function<void(const std::string& temporary_path)>& write) {
+    std::error_code error;
+    const std::filesystem::file_status status = std::filesystem::status(path, error);
+    if (std::filesystem::exists(status) && !std::filesystem::is_regular_file(status)) {
+        if (std::filesystem::is_directory(status))
+            throw IoError(fmt::format("{}: is a folder", path));
+        write(path);  // a device or a pipe takes bytes as they come and must not be replaced
+        return;
+    }
+    // A link stays one: what it points to is replaced.
+    const std::filesystem::path target = std::filesystem::exists(status)
+                                             ? std::filesystem::canonical(path)
+                                             : std::filesystem::path(path);
     // The extension stays at the end, for writers that choose their format by it.
-    const std::size_t slash = path.find_last_of('/') + 1;
-    const std::string temporary =
-        fmt::format("{}.{}.partial.{}", path.substr(0, slash), ::getpid(), path.substr(slash));
+    const std::string temporary = (target.parent_path() / fmt::format(".{}.partial.{}", ::getpid(),
+                                                                      target.filename().string()))
+                                      .string();
     Unfinished guard(temporary);
     write(temporary);
-    if (std::rename(temporary.c_str(), path.c_str()) != 0) fail(path);
+    if (std::rename(temporary.c_str(), target.c_str()) != 0) fail(path);
     guard.done();
 }
 

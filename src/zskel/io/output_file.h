@@ -6,9 +6,9 @@
 
 namespace zskel {
 
-/// Writes a file whole or not at all: `write` fills a temporary file beside it, which is then
-/// renamed. The temporary file goes away when anything fails and when the program is interrupted
-/// (see `remove_unfinished_files`).
+/// Writes a file whole or not at all (devices and pipes get the bytes directly): `write` fills a
+/// temporary file beside it, which is then renamed. The temporary file goes away when anything
+/// fails and when the program is interrupted (see `remove_unfinished_files`).
 /// @throws IoError naming the path and the system's reason; whatever `write` throws.
 void write_output_file(const std::string& path,
                        const std::function<void(const std::string& temporary_path)>& write);
