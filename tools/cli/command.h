@@ -3,6 +3,7 @@
 #include <CLI/CLI.hpp>
 #include <memory>
 #include <string>
+#include <vector>
 
 #include "zskel/core/error.h"
 #include "zskel/visibility/backend.h"
@@ -27,6 +28,15 @@ void add_extract_command(CLI::App& app, const Common& common, Run& run);
 
 /// Adds --backend, --gpu, --face-px and --rays to a subcommand.
 void add_backend_options(CLI::App& command, BackendOptions& options);
+
+/// Checks for lengths: finite, and above 0 or not below it.
+CLI::Validator positive_length();
+CLI::Validator length_or_zero();
+
+/// Refuses outputs that cannot be meant, before any work is done. Empty names are left out.
+/// @throws UsageError when an output is the model or another output; IoError when the folder that
+/// it goes to is not there or cannot be written to.
+void check_outputs(const std::string& model, const std::vector<std::string>& outputs);
 
 /// Prints text to standard output. @throws IoError when that is closed or full.
 void print(const std::string& text);

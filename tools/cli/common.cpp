@@ -1,7 +1,80 @@
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <cmath>
+#include <cstring>
+#include <filesystem>
+
 #include "command.h"
 #include "zskel/io/output_file.h"
 
 namespace zskel::cli {
+namespace {
+
+namespace fs = std::filesystem;
+
+CLI::Validator length_check(const char* name, const char* expected, bool (*is_fine)(double)) {
+    return {[=](std::string& text) {
+                double value = 0.0;
+                const bool fine = CLI::detail::lexical_cast(text, value) && std::isfinite(value) &&
+                                  is_fine(value);
+                return fine ? std::string() : fmt::format("{} is not {}", text, expected);
+            },
+            name};
+}
+
+// A device or a pipe may be named twice and lies in no folder of ours.
+bool is_file_to_be(const std::string& path) {
+    std::error_code unknown;
+    const fs::file_status status = fs::status(path, unknown);
+    return path != "-" && (!fs::exists(status) || fs::is_regular_file(status));
+}
+
+// The path without links and dots, whether it is there or not.
+fs::path full_path(const std::string& path) {
+    std::error_code unknown;
+    return fs::weakly_canonical(fs::absolute(path, unknown), unknown);
+}
+
+void check_folder(const std::string& path) {
+    const fs::path folder = full_path(path).parent_path();
+    if (::access(folder.c_str(), W_OK | X_OK) != 0) {
+        throw IoError(
+            fmt::format("{}: cannot write: {}: {}", path, folder.string(), std::strerror(errno)));
+    }
+}
+
+bool is_same_file(const std::string& a, const std::string& b) {
+    std::error_code unknown;
+    return full_path(a) == full_path(b) || fs::equivalent(a, b, unknown);
+}
+
+}  // namespace
+
+CLI::Validator positive_length() {
+    return length_check("POSITIVE", "a number above 0", [](double value) { return value > 0.0; });
+}
+
+CLI::Validator length_or_zero() {
+    return length_check("NONNEGATIVE", "a number from 0 up",
+                        [](double value) { return value >= 0.0; });
+}
+
+void check_outputs(const std::string& model, const std::vector<std::string>& outputs) {
+    std::vector<std::string> seen;
+    for (const std::string& path : outputs) {
+        if (path.empty() || !is_file_to_be(path)) continue;
+        if (model != "-" && is_same_file(path, model))
+            throw UsageError(fmt::format("{}: the output would replace the model", path));
+        for (const std::string& other : seen) {
+            if (is_same_file(path, other))
+                throw UsageError(fmt::format("{}: two outputs go to this file", path));
+        }
+        check_folder(path);
+        seen.push_back(path);
+    }
+}
 
 void add_backend_options(CLI::App& command, BackendOptions& options) {
     command
@@ -11,13 +84,16 @@ void add_backend_options(CLI::App& command, BackendOptions& options) {
             "auto: the first GL context that works, else rays; gl: GL only; egl; osmesa; "
             "ray: Embree; brute: every ray against every triangle")
         ->type_name("NAME");
-    command.add_option("--gpu", options.gpu, "Take the hardware device of this number");
+    command.add_option("--gpu", options.gpu, "Take the hardware device of this number")
+        ->check(CLI::Range(0, 1 << 16));
     command.add_option("--face-px", options.face_px, "Texels along a cube face, 4 to 1024")
         ->capture_default_str();
-    command.add_option(
-        "--rays", options.rays,
-        "Ray backends: this many directions an eye, spread evenly, in place of the cube's texels "
-        "(the paper: 197)");
+    command
+        .add_option("--rays", options.rays,
+                    "Ray backends: this many directions an eye, spread evenly, in place of the "
+                    "cube's texels "
+                    "(the paper: 197)")
+        ->check(CLI::Range(1, 1 << 20));
 }
 
 void print(const std::string& text) {

@@ -118,7 +118,7 @@ void add_compare_command(CLI::App& app, const Common&, Run& run) {
         ->add_option("--eyes", arguments->eyes,
                      "About this many eyes: starts, mid-paths and ends of seeds")
         ->capture_default_str()
-        ->check(CLI::PositiveNumber);
+        ->check(CLI::Range(1, 1 << 20));
     command->add_flag("--json", arguments->as_json, "Print JSON");
     add_backend_options(*command, arguments->tested);
     command

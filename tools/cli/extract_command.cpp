@@ -101,6 +101,9 @@ void draw_pictures(const Arguments& arguments, const ExtractResult& result, gl::
 ExitCode extract(const Arguments& given, const Common& common) {
     Arguments arguments = given;
     arguments.extract.steps.keep_paths = arguments.parts.paths || !arguments.picture_paths.empty();
+    if (arguments.output.empty())
+        throw UsageError("--output needs a name, or - for standard output");
+    check_outputs(arguments.model, {arguments.output, arguments.picture, arguments.picture_paths});
     const Mesh mesh = read_mesh(arguments.model);
     // A picture that cannot be drawn is known before the work starts, not after.
     std::unique_ptr<gl::Context> picture_context;
@@ -109,7 +112,7 @@ ExitCode extract(const Arguments& given, const Common& common) {
     const std::unique_ptr<Backend> backend = open_backend(arguments.backend);
     ExtractResult result;
     {
-        ProgressBar bar(common.verbosity >= 0);
+        ProgressBar bar(common.verbosity >= 0 && common.log_format == "text");
         arguments.extract.progress = [&](std::string_view stage, double share) {
             return bar.show(stage, share);
         };
@@ -157,20 +160,20 @@ void add_extract_command(CLI::App& app, const Common& common, Run& run) {
     ExtractOptions& o = arguments->extract;
     command->add_option("--step", o.steps.step_world, "Length of a step, in the unit cube")
         ->capture_default_str()
-        ->check(CLI::PositiveNumber);
+        ->check(positive_length());
     command->add_option("--max-steps", o.steps.max_steps, "Steps after which a seed is stopped")
         ->capture_default_str()
-        ->check(CLI::PositiveNumber);
+        ->check(CLI::Range(1, 1 << 30));
     command
         ->add_option("--offset", o.seeds.offset_world,
                      "How far inside the surface seeds start, in the unit cube")
         ->capture_default_str()
-        ->check(CLI::PositiveNumber);
+        ->check(positive_length());
     command
         ->add_option("--cluster", o.clusters.range_world,
                      "Range within which end points become one node, in the unit cube")
         ->capture_default_str()
-        ->check(CLI::NonNegativeNumber);
+        ->check(length_or_zero());
     command->add_flag("--with-seeds", arguments->parts.seeds,
                       "Add every seed's start, end, state and steps to the JSON");
     command->add_flag("--with-paths", arguments->parts.paths, "Add every seed's path too");

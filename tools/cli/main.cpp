@@ -1,11 +1,14 @@
 // The command-line program: reads the line, sets up the log, runs one subcommand, maps errors to
 // exit codes.
+#include <fmt/format.h>
 #include <malloc.h>
 #include <unistd.h>
 
 #include <csignal>
 #include <cstdio>
 #include <exception>
+#include <sstream>
+#include <string_view>
 
 #include "command.h"
 #include "zskel/core/log.h"
@@ -28,6 +31,15 @@ void stop_cleanly(int signal) {
     ::_exit(128 + signal);
 }
 
+void stop_cleanly_on(int signal) {
+    struct sigaction before {};
+    // What a caller had ignored, as nohup does with SIGHUP, stays ignored.
+    if (signal == SIGHUP && ::sigaction(signal, nullptr, &before) == 0 &&
+        before.sa_handler == SIG_IGN)
+        return;
+    std::signal(signal, stop_cleanly);
+}
+
 void set_up(const Common& common) {
     const LogLevel level = common.verbosity < 0    ? LogLevel::Error
                            : common.verbosity == 0 ? LogLevel::Warning
@@ -35,6 +47,45 @@ void set_up(const Common& common) {
                                                    : LogLevel::Debug;
     set_log(level, common.log_format == "json" ? LogFormat::Json : LogFormat::Text);
     set_thread_limit(common.threads);
+}
+
+// Known before the line is read, so that an error in the line itself has the form asked for.
+LogFormat log_format_of(int argc, char** argv) {
+    LogFormat format = LogFormat::Text;
+    for (int i = 1; i < argc; ++i) {
+        std::string_view value = argv[i];
+        if (value == "--log-format" && i + 1 < argc) {
+            value = argv[i + 1];
+        } else if (value.starts_with("--log-format=")) {
+            value.remove_prefix(value.find('=') + 1);
+        } else {
+            continue;
+        }
+        format = value == "json" ? LogFormat::Json : LogFormat::Text;
+    }
+    return format;
+}
+
+std::string usage_text(const CLI::App& app, const CLI::ParseError& error) {
+    const std::vector<std::string> unknown = app.remaining(true);
+    const auto chosen = app.get_subcommands();
+    return fmt::format("{}; see zskel {}--help",
+                       unknown.empty() ? error.what() : "unknown argument " + unknown.front(),
+                       chosen.empty() ? "" : chosen.front()->get_name() + " ");
+}
+
+// False when the line asked for help or the version, which is then printed.
+bool parse_line(CLI::App& app, int argc, char** argv) {
+    try {
+        app.parse(argc, argv);
+        return true;
+    } catch (const CLI::ParseError& error) {
+        std::ostringstream answer;
+        std::ostringstream complaint;
+        if (app.exit(error, answer, complaint) != 0) throw UsageError(usage_text(app, error));
+        print(answer.str());
+        return false;
+    }
 }
 
 int fail(ExitCode code, const char* text) {
@@ -59,7 +110,7 @@ int run_program(int argc, char** argv) {
     app.add_option("--log-format", common.log_format, "text, or json: one object a line")
         ->check(CLI::IsMember({"text", "json"}));
     app.add_option("--threads", common.threads, "Use at most this many threads")
-        ->check(CLI::NonNegativeNumber);
+        ->check(CLI::Range(0, 4096));
     Run run;
     add_extract_command(app, common, run);
 
@@ -67,12 +118,11 @@ int run_program(int argc, char** argv) {
     add_depth_command(app, common, run);
     add_compare_command(app, common, run);
     add_doctor_command(app, common, run);
+    set_log(LogLevel::Warning, log_format_of(argc, argv));
     try {
-        app.parse(argc, argv);
+        if (!parse_line(app, argc, argv)) return static_cast<int>(ExitCode::Ok);
         set_up(common);
         return static_cast<int>(run());
-    } catch (const CLI::ParseError& error) {
-        return app.exit(error) == 0 ? 0 : static_cast<int>(ExitCode::Usage);
     } catch (const Error& error) {
         return fail(error.code(), error.what());
     } catch (const std::bad_alloc&) {
@@ -89,8 +139,7 @@ int main(int argc, char** argv) {
     // Software GL drivers map and unmap their buffers at every draw unless the heap keeps them.
     ::mallopt(M_MMAP_THRESHOLD, 1 << 30);
     ::mallopt(M_TRIM_THRESHOLD, 1 << 30);
-    std::signal(SIGINT, zskel::cli::stop_cleanly);
-    std::signal(SIGTERM, zskel::cli::stop_cleanly);
+    for (const int signal : {SIGINT, SIGTERM, SIGHUP}) zskel::cli::stop_cleanly_on(signal);
     std::signal(SIGPIPE,
                 SIG_IGN);  // a closed pipe is then an error of the write, with its exit code
     return zskel::cli::run_program(argc, argv);

@@ -25,12 +25,34 @@ class JsonMessageFlag : public spdlog::custom_flag_formatter {
     }
 };
 
+// The message on one line and without bytes that a terminal would act on: file names may hold any.
+class TextMessageFlag : public spdlog::custom_flag_formatter {
+  public:
+    void format(const spdlog::details::log_msg& message, const std::tm&,
+                spdlog::memory_buf_t& out) override {
+        for (const char c : message.payload) {
+            const auto byte = static_cast<unsigned char>(c);
+            const bool is_control = byte < 0x20 || byte == 0x7F;
+            if (c == '\n') {
+                out.append(std::string_view("\\n"));
+            } else if (is_control) {
+                fmt::format_to(std::back_inserter(out), "\\x{:02x}", byte);
+            } else {
+                out.push_back(c);
+            }
+        }
+    }
+    std::unique_ptr<custom_flag_formatter> clone() const override {
+        return std::make_unique<TextMessageFlag>();
+    }
+};
+
 std::unique_ptr<spdlog::formatter> make_formatter(LogFormat format) {
     auto formatter = std::make_unique<spdlog::pattern_formatter>();
-    formatter->add_flag<JsonMessageFlag>('*');
+    formatter->add_flag<JsonMessageFlag>('*').add_flag<TextMessageFlag>('&');
     formatter->set_pattern(format == LogFormat::Json
                                ? R"({"time":"%Y-%m-%dT%H:%M:%S.%e%z","level":"%l","message":%*})"
-                               : "zskel: %l: %v");
+                               : "zskel: %l: %&");
     return formatter;
 }
 
