@@ -97,17 +97,17 @@ double least_angle_deg(const Triangles& mesh) {
             const glm::dvec3 a = mesh.vertices[f[k]];
             const glm::dvec3 b = mesh.vertices[f[(k + 1) % 3]] - a;
             const glm::dvec3 c = mesh.vertices[f[(k + 2) % 3]] - a;
-            least = std::min(least, glm::degrees(std::atan2(glm::length(glm::cross(b, c)), glm::dot(b, c))));
+            least = std::min(
+                least, glm::degrees(std::atan2(glm::length(glm::cross(b, c)), glm::dot(b, c))));
         }
     }
     return least;
 }
 
 std::size_t count_outside(const Model& model) {
-    return static_cast<std::size_t>(
-        std::count_if(model.truth.nodes.begin(), model.truth.nodes.end(), [&](const Truth::Node& n) {
-            return winding_number(model.mesh, n.position) < 0.5;
-        }));
+    return static_cast<std::size_t>(std::count_if(
+        model.truth.nodes.begin(), model.truth.nodes.end(),
+        [&](const Truth::Node& n) { return winding_number(model.mesh, n.position) < 0.5; }));
 }
 
 /// True where a node is far enough from every junction for its radius to be a tube's.
@@ -159,13 +159,14 @@ CheckResult check_model(const Model& model) {
     };
     const Topology topology = measure_topology(model.mesh);
     const double volume = signed_volume(model.mesh);
-    const double face_error =
-        std::abs(static_cast<double>(model.mesh.faces.size()) / static_cast<double>(want.faces) - 1.0);
+    const double face_error = std::abs(
+        static_cast<double>(model.mesh.faces.size()) / static_cast<double>(want.faces) - 1.0);
     const double radius_error = largest_radius_error(model);
     require(topology.is_oriented, "a directed edge is used twice");
     require(topology.is_manifold, "a vertex has more than one fan of faces");
     require(volume > 0.0, "oriented inward");
-    require(face_error <= 0.05, fmt::format("{} faces, expected {}", model.mesh.faces.size(), want.faces));
+    require(face_error <= 0.05,
+            fmt::format("{} faces, expected {}", model.mesh.faces.size(), want.faces));
     require_count(topology.components, 1, "components");
     require_count(topology.boundary_loops, want.boundary_loops, "boundary loops");
     require_count(static_cast<std::size_t>(topology.genus), want.genus, "handles");
@@ -173,7 +174,8 @@ CheckResult check_model(const Model& model) {
     require_count(count_cycles(model.truth), want.cycles, "cycles");
     require_count(count_outside(model), 0, "nodes of the truth outside");
     require(radius_error <= want.radius_tolerance,
-            fmt::format("a radius is wrong by {:.3f} of itself, allowed {}", radius_error, want.radius_tolerance));
+            fmt::format("a radius is wrong by {:.3f} of itself, allowed {}", radius_error,
+                        want.radius_tolerance));
     result.measured = fmt::format(
         "{:13} {:6} faces  genus {}  loops {}  volume {:.5f}  least angle {:4.1f} deg  "
         "{:5} nodes  {:3} ends  {} cycles  radius error {:.3f}",

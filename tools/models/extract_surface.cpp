@@ -1,8 +1,11 @@
-// Marching tetrahedra (Doi and Koide 1991) on cells cut in six around their diagonal (Kuhn 1960). An
-// octree skips what lies further from the surface than its size, so only cells near it are sampled.
+// Marching tetrahedra (Doi and Koide 1991) on cells cut in six around their diagonal (Kuhn 1960).
+// An octree skips what lies further from the surface than its size, so only cells near it are
+// sampled.
 #include "extract_surface.h"
 
+#include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstdint>
 #include <unordered_map>
 #include <utility>
@@ -86,7 +89,9 @@ class Extraction {
         }
     }
 
-    void emit(std::uint32_t a, std::uint32_t b, std::uint32_t c) { mesh_.faces.emplace_back(a, b, c); }
+    void emit(std::uint32_t a, std::uint32_t b, std::uint32_t c) {
+        mesh_.faces.emplace_back(a, b, c);
+    }
 
     glm::dvec3 position(const glm::dvec3& corner) const { return corner * cell_ - kHalfSide; }
 
@@ -111,7 +116,8 @@ class Extraction {
             crossings_[std::min(ia, ib)].try_emplace(std::max(ia, ib), count);
         if (is_new) {
             const double va = value(a), vb = value(b);
-            mesh_.vertices.push_back(position(glm::mix(glm::dvec3(a), glm::dvec3(b), va / (va - vb))));
+            mesh_.vertices.push_back(
+                position(glm::mix(glm::dvec3(a), glm::dvec3(b), va / (va - vb))));
         }
         return entry->second;
     }
@@ -126,6 +132,8 @@ class Extraction {
 
 }  // namespace
 
-Triangles extract_surface(const Field& field, int levels) { return Extraction(field, levels).run(); }
+Triangles extract_surface(const Field& field, int levels) {
+    return Extraction(field, levels).run();
+}
 
 }  // namespace zskel::models

@@ -1,5 +1,6 @@
-// Limbs join by the polynomial smooth minimum (after Quilez). Its width fades with the distance from
-// the limb's first ball, so a leg has a fillet at the hip and yet never welds to the leg beside it.
+// Limbs join by the polynomial smooth minimum (after Quilez). Its width fades with the distance
+// from the limb's first ball, so a leg has a fillet at the hip and yet never welds to the leg
+// beside it.
 #include "field.h"
 
 #include <algorithm>
@@ -16,7 +17,9 @@ struct Nearest {
     double distance, radius;
 };
 
-Nearest nearest_of(const Nearest& a, const Nearest& b) { return b.distance < a.distance ? b : a; }
+Nearest nearest_of(const Nearest& a, const Nearest& b) {
+    return b.distance < a.distance ? b : a;
+}
 
 Nearest distance_to_ball(const glm::dvec3& p, const Ball& ball) {
     return {glm::distance(p, glm::dvec3(ball)) - ball.w, ball.w};
@@ -64,7 +67,8 @@ Nearest join(const Nearest& a, const Nearest& b, double width) {
     }
     const double share = 0.5 * (1.0 - apart / width);  // of the farther one
     const double farther_radius = b.distance < a.distance ? a.radius : b.radius;
-    return {nearest.distance - width * share * share, glm::mix(nearest.radius, farther_radius, share)};
+    return {nearest.distance - width * share * share,
+            glm::mix(nearest.radius, farther_radius, share)};
 }
 
 double distance_to_box(const glm::dvec3& p, const glm::dvec3& low, const glm::dvec3& high) {

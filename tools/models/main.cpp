@@ -2,8 +2,8 @@
 #include "check.h"
 #include "writer.h"
 
-#include <CLI/CLI.hpp>
 #include <fmt/format.h>
+#include <CLI/CLI.hpp>
 
 #include <algorithm>
 #include <cstdio>
@@ -48,13 +48,15 @@ int main(int argc, char** argv) {
     app.add_option("--out", folder, "Folder for NAME.obj and NAME.skeleton.json")->required();
     app.add_option("names", names, "What to make; everything when none is named")
         ->check(CLI::IsMember(known));
-    app.add_flag("--check", is_checked, "Measure every model; exit with 1 when one is not as expected");
+    app.add_flag("--check", is_checked,
+                 "Measure every model; exit with 1 when one is not as expected");
     CLI11_PARSE(app, argc, argv);
     try {
         std::filesystem::create_directories(folder);
         bool is_good = true;
         for (const models::Recipe& recipe : models::catalogue()) {
-            if (names.empty() || std::find(names.begin(), names.end(), recipe.name) != names.end()) {
+            if (names.empty() ||
+                std::find(names.begin(), names.end(), recipe.name) != names.end()) {
                 is_good &= make_one(recipe, folder, is_checked);
             }
         }

@@ -11,12 +11,12 @@ namespace zskel::models {
 
 /// What a finished model must be; `zskel_make_models --check` measures it.
 struct Expected {
-    std::size_t faces = 0;              ///< Within 5 %.
+    std::size_t faces = 0;  ///< Within 5 %.
     std::size_t genus = 0;
     std::size_t boundary_loops = 0;
-    std::size_t ends = 0;               ///< Of the true skeleton.
-    std::size_t cycles = 0;             ///< Of the true skeleton.
-    double radius_tolerance = 0.3;      ///< Of a tube's radius against its distance to the mesh.
+    std::size_t ends = 0;           ///< Of the true skeleton.
+    std::size_t cycles = 0;         ///< Of the true skeleton.
+    double radius_tolerance = 0.3;  ///< Of a tube's radius against its distance to the mesh.
 };
 
 /// A mesh and the skeleton that it was built from, both in the unit cube around the origin.

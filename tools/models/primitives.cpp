@@ -14,8 +14,8 @@ Triangles grid_cube(int cells) {
     Triangles mesh;
     std::map<std::tuple<int, int, int>, unsigned> known;
     const auto vertex = [&](const glm::ivec3& p) {
-        const auto [entry, is_new] = known.try_emplace(
-            std::tuple(p.x, p.y, p.z), static_cast<unsigned>(mesh.vertices.size()));
+        const auto [entry, is_new] = known.try_emplace(std::tuple(p.x, p.y, p.z),
+                                                       static_cast<unsigned>(mesh.vertices.size()));
         if (is_new) {
             mesh.vertices.emplace_back(p);
         }
@@ -32,7 +32,8 @@ Triangles grid_cube(int cells) {
         };
         for (int i = 0; i < cells; ++i) {
             for (int j = 0; j < cells; ++j) {
-                const unsigned a = at(i, j), b = at(i + 1, j), c = at(i + 1, j + 1), d = at(i, j + 1);
+                const unsigned a = at(i, j), b = at(i + 1, j), c = at(i + 1, j + 1),
+                               d = at(i, j + 1);
                 mesh.faces.emplace_back(a, b, c);
                 mesh.faces.emplace_back(a, c, d);
             }
@@ -55,7 +56,9 @@ void join_rings(Triangles& mesh, unsigned from, unsigned to, unsigned count) {
     }
 }
 
-double turn(unsigned i, unsigned count) { return 2.0 * std::numbers::pi * i / count; }
+double turn(unsigned i, unsigned count) {
+    return 2.0 * std::numbers::pi * i / count;
+}
 
 /// Rings around the x axis, closed by a fan to x = -pole and one to x = pole.
 Triangles revolve(const std::vector<glm::dvec2>& profile, double pole, unsigned round) {
@@ -157,7 +160,8 @@ Model make_double_torus() {
         std::vector<Ball> ring;
         for (unsigned i = 0; i < 16; ++i) {
             const double angle = turn(i, 16);
-            ring.emplace_back(side * (0.26 - 0.19 * std::cos(angle)), 0.19 * std::sin(angle), 0.0, 0.08);
+            ring.emplace_back(side * (0.26 - 0.19 * std::cos(angle)), 0.19 * std::sin(angle), 0.0,
+                              0.08);
         }
         shape.grow(side < 0.0 ? "left ring" : "right ring", ring,
                    {.blend = 0.06, .reach = 0.3, .is_loop = true});

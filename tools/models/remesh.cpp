@@ -1,10 +1,11 @@
-// Decimation by collapses that keep the topology (OpenMesh), those first that make short edges, in units
-// of the length that suits the place, and keep to the planes (quadrics: Garland and Heckbert 1997). Then rounds of edge flips and tangential
-// smoothing (Botsch and Kobbelt 2004), pulled back to the field. No step may turn a triangle over.
+// Decimation by collapses that keep the topology (OpenMesh): first those that make short edges, in
+// units of the length that suits the place, and keep to the planes (quadrics: Garland and Heckbert
+// 1997). Then rounds of edge flips and tangential smoothing (Botsch and Kobbelt 2004), pulled back
+// to the field. No step may turn a triangle over.
 #include "remesh.h"
 
-#include <OpenMesh/Core/Mesh/TriMesh_ArrayKernelT.hh>
 #include <OpenMesh/Core/Geometry/QuadricT.hh>
+#include <OpenMesh/Core/Mesh/TriMesh_ArrayKernelT.hh>
 #include <OpenMesh/Tools/Decimater/DecimaterT.hh>
 #include <OpenMesh/Tools/Decimater/ModBaseT.hh>
 #include <OpenMesh/Tools/Decimater/ModNormalFlippingT.hh>
@@ -25,13 +26,17 @@ using Mesh = OpenMesh::TriMesh_ArrayKernelT<Traits>;
 
 constexpr int kRelaxRounds = 12;
 constexpr double kPull = 0.7;             // share of the way to the middle, a round
-constexpr double kMaxFlipDegrees = 60.0;   // that a collapse may turn a face
-constexpr double kRoundLengths = 1.05;      // longest suited edge in radii: six to a round
+constexpr double kMaxFlipDegrees = 60.0;  // that a collapse may turn a face
+constexpr double kRoundLengths = 1.05;    // longest suited edge in radii: six to a round
 constexpr double kPlaneWeight = 1.0;
-constexpr double kMaxTurn = 0.4;          // least cosine between a face's normal before and after
+constexpr double kMaxTurn = 0.4;  // least cosine between a face's normal before and after
 
-glm::dvec3 to_glm(const OpenMesh::Vec3d& v) { return {v[0], v[1], v[2]}; }
-OpenMesh::Vec3d to_openmesh(const glm::dvec3& v) { return {v.x, v.y, v.z}; }
+glm::dvec3 to_glm(const OpenMesh::Vec3d& v) {
+    return {v[0], v[1], v[2]};
+}
+OpenMesh::Vec3d to_openmesh(const glm::dvec3& v) {
+    return {v.x, v.y, v.z};
+}
 
 Mesh to_mesh(const Triangles& triangles) {
     Mesh mesh;
@@ -60,8 +65,9 @@ Triangles to_triangles(const Mesh& mesh) {
     return triangles;
 }
 
-/// Edge length that suits each place: it grows with the square root of the limb's radius, so thin limbs
-/// get more triangles a round than their area asks for, and never exceeds what keeps a limb round.
+/// Edge length that suits each place: it grows with the square root of the limb's radius, so thin
+/// limbs get more triangles a round than their area asks for, and never exceeds what keeps a limb
+/// round.
 class SuitedLength {
   public:
     /// Sets the factor so that the whole mesh takes about `faces` triangles.
@@ -92,8 +98,8 @@ class SuitedLength {
     double factor_ = 0.1;
 };
 
-/// Rates a collapse by the longest edge that it makes, in suited lengths, and by how far the kept vertex
-/// is from the planes of all the triangles that it stands for.
+/// Rates a collapse by the longest edge that it makes, in suited lengths, and by how far the kept
+/// vertex is from the planes of all the triangles that it stands for.
 template <class MeshT>
 class ModSuited : public OpenMesh::Decimater::ModBaseT<MeshT> {
   public:
@@ -120,7 +126,8 @@ class ModSuited : public OpenMesh::Decimater::ModBaseT<MeshT> {
             longest = std::max(longest, (Base::mesh().point(neighbour) - collapse.p1).sqrnorm());
         }
         const Quadric planes = quadrics_[index(collapse.v0)] + quadrics_[index(collapse.v1)];
-        return static_cast<float>((longest + kPlaneWeight * planes(collapse.p1)) / (suited * suited));
+        return static_cast<float>((longest + kPlaneWeight * planes(collapse.p1)) /
+                                  (suited * suited));
     }
 
     void postprocess_collapse(const CollapseInfo& collapse) override {
@@ -130,7 +137,9 @@ class ModSuited : public OpenMesh::Decimater::ModBaseT<MeshT> {
   private:
     using Quadric = OpenMesh::Geometry::QuadricT<double>;
 
-    static std::size_t index(const OpenMesh::VertexHandle& v) { return static_cast<std::size_t>(v.idx()); }
+    static std::size_t index(const OpenMesh::VertexHandle& v) {
+        return static_cast<std::size_t>(v.idx());
+    }
 
     std::vector<double> lengths_;
     std::vector<Quadric> quadrics_;
@@ -190,7 +199,8 @@ void flip_edges(Mesh& mesh) {
     }
 }
 
-bool turns_a_face(const Mesh& mesh, const OpenMesh::SmartVertexHandle& v, const glm::dvec3& target) {
+bool turns_a_face(const Mesh& mesh, const OpenMesh::SmartVertexHandle& v,
+                  const glm::dvec3& target) {
     const glm::dvec3 p = to_glm(mesh.point(v));
     for (const auto h : v.outgoing_halfedges()) {
         const glm::dvec3 a = to_glm(mesh.point(h.to())), b = to_glm(mesh.point(h.next().to()));
@@ -201,8 +211,9 @@ bool turns_a_face(const Mesh& mesh, const OpenMesh::SmartVertexHandle& v, const 
     return false;
 }
 
-/// Moves every vertex toward the middle of its faces, along the surface only. Faces weigh by area and
-/// by the density that the suited length asks for, which is what centroidal Voronoi cells settle to.
+/// Moves every vertex toward the middle of its faces, along the surface only. Faces weigh by area
+/// and by the density that the suited length asks for, which is what centroidal Voronoi cells
+/// settle to.
 void smooth(Mesh& mesh, const Field& field, const SuitedLength& suited) {
     for (const auto v : mesh.vertices()) {
         const glm::dvec3 p = to_glm(mesh.point(v));
@@ -211,8 +222,7 @@ void smooth(Mesh& mesh, const Field& field, const SuitedLength& suited) {
         for (const auto h : v.outgoing_halfedges()) {
             const glm::dvec3 centre =
                 (p + to_glm(mesh.point(h.to())) + to_glm(mesh.point(h.next().to()))) / 3.0;
-            const double weight =
-                mesh.calc_sector_area(h) / std::pow(suited.at(centre), 4.0);
+            const double weight = mesh.calc_sector_area(h) / std::pow(suited.at(centre), 4.0);
             middle += weight * centre;
             total += weight;
         }

@@ -39,17 +39,20 @@ std::vector<Ball> sample_curve(const std::vector<Ball>& control, bool is_loop) {
         if (i < 0) {
             return 2.0 * control[0] - control[1];
         }
-        return i < n ? control[static_cast<std::size_t>(i)] : 2.0 * control[count - 1] - control[count - 2];
+        return i < n ? control[static_cast<std::size_t>(i)]
+                     : 2.0 * control[count - 1] - control[count - 2];
     };
     std::vector<Ball> balls;
     for (std::size_t s = 0; s < spans; ++s) {
         const auto i = static_cast<std::ptrdiff_t>(s);
         const Ball q[4] = {ball_at(i - 1), ball_at(i), ball_at(i + 1), ball_at(i + 2)};
         const double length = glm::distance(glm::dvec3(q[1]), glm::dvec3(q[2]));
-        const double steps = std::clamp(std::ceil(length / (0.6 * std::min(q[1].w, q[2].w))), 1.0, 12.0);
+        const double steps =
+            std::clamp(std::ceil(length / (0.6 * std::min(q[1].w, q[2].w))), 1.0, 12.0);
         for (double k = 0.0; k < steps; k += 1.0) {
             Ball ball = evaluate_span(q, k / steps);
-            ball.w = std::clamp(ball.w, 0.9 * std::min(q[1].w, q[2].w), 1.1 * std::max(q[1].w, q[2].w));
+            ball.w =
+                std::clamp(ball.w, 0.9 * std::min(q[1].w, q[2].w), 1.1 * std::max(q[1].w, q[2].w));
             balls.push_back(ball);
         }
     }
@@ -63,10 +66,13 @@ std::vector<Ball> sample_curve(const std::vector<Ball>& control, bool is_loop) {
 glm::dvec3 squeezed_position(const Limb& limb, const Ball& ball) {
     const Squeeze& squeeze = limb.options.squeeze;
     const glm::dvec3 offset = glm::dvec3(ball) - glm::dvec3(limb.balls.front());
-    return glm::dvec3(ball) + (squeeze.factor - 1.0) * glm::dot(offset, squeeze.axis) * squeeze.axis;
+    return glm::dvec3(ball) +
+           (squeeze.factor - 1.0) * glm::dot(offset, squeeze.axis) * squeeze.axis;
 }
 
-Ball mirrored(const Ball& ball) { return {ball.x, ball.y, -ball.z, ball.w}; }
+Ball mirrored(const Ball& ball) {
+    return {ball.x, ball.y, -ball.z, ball.w};
+}
 
 }  // namespace
 
@@ -97,7 +103,8 @@ std::size_t Shape::find_joint(const Ball& first, const std::string& from) const 
 
 void Shape::grow(const std::string& name, const std::vector<Ball>& control,
                  const LimbOptions& options) {
-    const Limb& limb = limbs_.emplace_back(Limb{name, sample_curve(control, options.is_loop), options});
+    const Limb& limb =
+        limbs_.emplace_back(Limb{name, sample_curve(control, options.is_loop), options});
     if (options.is_flesh) {
         return;
     }
@@ -118,7 +125,8 @@ void Shape::grow(const std::string& name, const std::vector<Ball>& control,
         truth_.nodes.push_back({position, ball.w * options.squeeze.factor});
     }
     if (options.is_loop) {
-        truth_.edges.emplace_back(part.nodes.back(), part.nodes[part.nodes.size() - limb.balls.size()]);
+        truth_.edges.emplace_back(part.nodes.back(),
+                                  part.nodes[part.nodes.size() - limb.balls.size()]);
     }
     truth_.limbs.push_back(std::move(part));
 }

@@ -21,13 +21,13 @@ struct Squeeze {
 
 /// How a limb is built; lengths are in the shape's own units.
 struct LimbOptions {
-    double blend = 0.05;      ///< Widest fillet where the limb leaves what was built before it.
-    double reach = 0.0;       ///< How far from its first ball it blends; 0 picks it from the radius.
+    double blend = 0.05;  ///< Widest fillet where the limb leaves what was built before it.
+    double reach = 0.0;   ///< How far from its first ball it blends; 0 picks it from the radius.
     Squeeze squeeze = {};
-    bool is_tube = true;      ///< Its radii are the distances to the surface.
-    bool is_flesh = false;    ///< Shapes the surface only; the truth does not know it.
-    bool is_loop = false;     ///< Its last ball joins its first.
-    std::string from = {};    ///< The limb that its skeleton hangs on; empty for any.
+    bool is_tube = true;    ///< Its radii are the distances to the surface.
+    bool is_flesh = false;  ///< Shapes the surface only; the truth does not know it.
+    bool is_loop = false;   ///< Its last ball joins its first.
+    std::string from = {};  ///< The limb that its skeleton hangs on; empty for any.
 };
 
 /// A chain of balls, dense along a smooth curve; the surface is the hull of each ball and the next.

@@ -24,8 +24,8 @@ double distance_to_triangle(const glm::dvec3& p, const glm::dvec3& a, const glm:
     if (is_left_of(a, b) && is_left_of(b, c) && is_left_of(c, a)) {
         return std::abs(glm::dot(p - a, normal)) / glm::length(normal);
     }
-    return std::min({distance_to_segment(p, a, b), distance_to_segment(p, b, c),
-                     distance_to_segment(p, c, a)});
+    return std::min(
+        {distance_to_segment(p, a, b), distance_to_segment(p, b, c), distance_to_segment(p, c, a)});
 }
 
 }  // namespace

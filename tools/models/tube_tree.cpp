@@ -14,16 +14,20 @@
 namespace zskel::models {
 namespace {
 
-constexpr double kRimGap = 1.3;        // angle between two rims' axes over the sum of their half-angles
-constexpr double kRingSpacing = 2.6;   // along a tube, in radii
+constexpr double kRimGap = 1.3;  // angle between two rims' axes over the sum of their half-angles
+constexpr double kRingSpacing = 2.6;  // along a tube, in radii
 
-double half_angle(double radius, double sphere) { return std::asin(std::min(1.0, radius / sphere)); }
+double half_angle(double radius, double sphere) {
+    return std::asin(std::min(1.0, radius / sphere));
+}
 
 double angle_between(const glm::dvec3& a, const glm::dvec3& b) {
     return std::acos(std::clamp(glm::dot(a, b), -1.0, 1.0));
 }
 
-unsigned ring_points(double radius) { return radius > 0.010 ? 12 : radius > 0.005 ? 8 : 6; }
+unsigned ring_points(double radius) {
+    return radius > 0.010 ? 12 : radius > 0.005 ? 8 : 6;
+}
 
 /// Polygons of that many points and of the circle's area are this much wider than it.
 double polygon_factor(unsigned points) {
@@ -32,14 +36,17 @@ double polygon_factor(unsigned points) {
 }
 
 /// Outer radius of the ring of a tube.
-double ring_radius(const Tube& tube) { return tube.radius * polygon_factor(ring_points(tube.radius)); }
+double ring_radius(const Tube& tube) {
+    return tube.radius * polygon_factor(ring_points(tube.radius));
+}
 
 glm::dvec3 direction_at(const Tube& tube, double t) {
     return glm::normalize(tube.at(t + 1e-4) - tube.at(t - 1e-4));
 }
 
 glm::dvec3 any_normal(const glm::dvec3& v) {
-    return glm::normalize(glm::cross(v, std::abs(v.x) < 0.5 ? glm::dvec3(1, 0, 0) : glm::dvec3(0, 0, 1)));
+    return glm::normalize(
+        glm::cross(v, std::abs(v.x) < 0.5 ? glm::dvec3(1, 0, 0) : glm::dvec3(0, 0, 1)));
 }
 
 struct Ring {
@@ -49,7 +56,8 @@ struct Ring {
 
 using Hull = std::vector<std::array<std::size_t, 3>>;
 
-/// Convex hull of points on a sphere around the origin, by trying every triangle; faces turn outward.
+/// Convex hull of points on a sphere around the origin, by trying every triangle; faces turn
+/// outward.
 Hull hull_on_sphere(const std::vector<glm::dvec3>& points) {
     Hull hull;
     const std::size_t count = points.size();
@@ -139,8 +147,8 @@ class Sweep {
         for (unsigned i = 0; i < points; ++i) {
             const double angle = 2.0 * std::numbers::pi * i / points;
             ring.vertices.push_back(static_cast<unsigned>(model_.mesh.vertices.size()));
-            model_.mesh.vertices.push_back(centre +
-                                           radius * (std::cos(angle) * across + std::sin(angle) * up));
+            model_.mesh.vertices.push_back(
+                centre + radius * (std::cos(angle) * across + std::sin(angle) * up));
         }
         return ring;
     }
@@ -159,7 +167,8 @@ class Sweep {
                   glm::dvec3 across) {
         const auto points = static_cast<unsigned>(rim.vertices.size());
         const double part = is_open ? 1.0 : std::sqrt(0.5);
-        const Ring next = add_ring(centre + part * radius * rim.axis, rim.axis, part * radius, points, across);
+        const Ring next =
+            add_ring(centre + part * radius * rim.axis, rim.axis, part * radius, points, across);
         join_rings(rim, next);
         if (is_open) {
             return;
@@ -183,7 +192,8 @@ class Sweep {
         const double length = glm::distance(tube.start, tube.end);
         const double from = is_root ? 0.0 : rim_offset(tubes_[tube.parent], tube) / length;
         const double to = is_end ? 1.0 : 1.0 - rim_offset(tube, tube) / length;
-        const double spans = std::max(2.0, std::round((to - from) * length / (kRingSpacing * tube.radius)));
+        const double spans =
+            std::max(2.0, std::round((to - from) * length / (kRingSpacing * tube.radius)));
         TruthLimb limb{fmt::format("branch {}", index), {}};
         if (!is_root) {
             limb.nodes.push_back(joints_[tube.parent].node);
@@ -214,8 +224,8 @@ class Sweep {
         model_.truth.limbs.push_back(std::move(limb));
     }
 
-    Ring add_rim(const glm::dvec3& origin, const glm::dvec3& direction, double offset, const Tube& tube,
-                 glm::dvec3& across) {
+    Ring add_rim(const glm::dvec3& origin, const glm::dvec3& direction, double offset,
+                 const Tube& tube, glm::dvec3& across) {
         return add_ring(origin + offset * direction, direction, ring_radius(tube),
                         ring_points(tube.radius), across);
     }
@@ -266,7 +276,8 @@ double joint_radius(const std::vector<Tube>& tubes, const Tube& tube) {
     const double angle_ab = angle_between(a.start_direction, b.start_direction);
     double sphere = 1.1 * std::max({ring_radius(tube), ring_radius(a), ring_radius(b)});
     const auto overlap = [&](const Tube& s, const Tube& t, double angle) {
-        return kRimGap * (half_angle(ring_radius(s), sphere) + half_angle(ring_radius(t), sphere)) > angle;
+        return kRimGap * (half_angle(ring_radius(s), sphere) + half_angle(ring_radius(t), sphere)) >
+               angle;
     };
     while (overlap(tube, a, angle_a) || overlap(tube, b, angle_b) || overlap(a, b, angle_ab)) {
         sphere *= 1.02;

@@ -1,4 +1,5 @@
-// Children's radii follow r^n = a^n + b^n (Murray 1926, with a smaller n to get thin vessels early).
+// Children's radii follow r^n = a^n + b^n (Murray 1926, with a smaller n to get thin vessels
+// early).
 #include "vessels.h"
 
 #include "tube_tree.h"
@@ -18,7 +19,7 @@ constexpr double kRootRadius = 0.02, kLeastRadius = 0.002;
 constexpr double kExponent = 2.2;
 constexpr std::size_t kMostTubes = 255;
 constexpr int kTries = 60;
-constexpr int kSamples = 10;   // points a tube, where distances are measured
+constexpr int kSamples = 10;  // points a tube, where distances are measured
 
 class Random {
   public:
@@ -51,14 +52,16 @@ class Growth {
         root.radius = kRootRadius;
         tubes_.push_back(root);
         for (std::size_t i = 0; i < tubes_.size() && tubes_.size() + 2 <= kMostTubes; ++i) {
-            for (int attempt = 0; attempt < kTries && !divide(i, 1.0 - 0.6 * attempt / kTries); ++attempt) {
+            for (int attempt = 0; attempt < kTries && !divide(i, 1.0 - 0.6 * attempt / kTries);
+                 ++attempt) {
             }
         }
         return tubes_;
     }
 
   private:
-    Tube make_child(std::size_t parent, double radius, double angle, double around, double shorten) {
+    Tube make_child(std::size_t parent, double radius, double angle, double around,
+                    double shorten) {
         const Tube& from = tubes_[parent];
         Tube tube;
         tube.parent = parent;
@@ -68,8 +71,8 @@ class Growth {
         tube.end_direction = tilted(tube.start_direction, random_.between(0.05, 0.35),
                                     random_.between(0.0, 2.0 * std::numbers::pi));
         const double length = shorten * random_.between(0.8, 1.2) * (0.045 + 6.5 * radius);
-        tube.end = tube.start +
-                   length * glm::normalize(tube.start_direction + 0.5 * tube.end_direction);
+        tube.end =
+            tube.start + length * glm::normalize(tube.start_direction + 0.5 * tube.end_direction);
         return tube;
     }
 
@@ -81,7 +84,8 @@ class Growth {
         const double thin = std::max(kLeastRadius, radius * std::pow(1.0 - share, 1.0 / kExponent));
         const double around = random_.between(0.0, 2.0 * std::numbers::pi);
         const Tube a = make_child(index, wide, random_.between(0.45, 0.65), around, shorten);
-        const Tube b = make_child(index, thin, random_.between(0.75, 1.0), around + std::numbers::pi, shorten);
+        const Tube b =
+            make_child(index, thin, random_.between(0.75, 1.0), around + std::numbers::pi, shorten);
         if (radius <= 1.02 * kLeastRadius || !has_room(a) || !has_room(b)) {
             return false;
         }
@@ -99,8 +103,8 @@ class Growth {
             }
         }
         return std::none_of(tubes_.begin(), tubes_.end(), [&](const Tube& other) {
-            return &other != &tubes_[tube.parent] && distance_between(tube, other) <
-                                                         2.0 * (tube.radius + other.radius) + 0.01;
+            return &other != &tubes_[tube.parent] &&
+                   distance_between(tube, other) < 2.0 * (tube.radius + other.radius) + 0.01;
         });
     }
 
@@ -108,7 +112,8 @@ class Growth {
         double least = std::numeric_limits<double>::infinity();
         for (int i = 0; i <= kSamples; ++i) {
             for (int j = 0; j <= kSamples; ++j) {
-                least = std::min(least, glm::distance(a.at(double(i) / kSamples), b.at(double(j) / kSamples)));
+                least = std::min(
+                    least, glm::distance(a.at(double(i) / kSamples), b.at(double(j) / kSamples)));
             }
         }
         return least;

@@ -15,17 +15,21 @@ void write_text(const std::filesystem::path& path, const std::string& text) {
     std::ofstream file(path, std::ios::binary);
     file << text;
     if (!file.flush()) {
-        throw std::runtime_error(fmt::format("cannot write {}: is the folder there?", path.string()));
+        throw std::runtime_error(
+            fmt::format("cannot write {}: is the folder there?", path.string()));
     }
 }
 
 /// Nearest number with five decimals, so that the shortest text of it is short.
-double short_number(double x) { return std::round(x / kFileStep) / std::round(1.0 / kFileStep); }
+double short_number(double x) {
+    return std::round(x / kFileStep) / std::round(1.0 / kFileStep);
+}
 
 std::string obj_text(const Model& model) {
     std::string text = fmt::format("# zskel make_models: {}\n", model.name);
     for (const glm::dvec3& v : model.mesh.vertices) {
-        text += fmt::format("v {} {} {}\n", short_number(v.x), short_number(v.y), short_number(v.z));
+        text +=
+            fmt::format("v {} {} {}\n", short_number(v.x), short_number(v.y), short_number(v.z));
     }
     for (const glm::uvec3& f : model.mesh.faces) {
         text += fmt::format("f {} {} {}\n", f.x + 1, f.y + 1, f.z + 1);
@@ -59,7 +63,8 @@ std::string skeleton_text(const Model& model) {
     return fmt::format(
         "{{\n\"version\": 1,\n\"model\": \"{}\",\n\"ends\": {},\n\"cycles\": {},\n"
         "\"nodes\": {},\n\"edges\": {},\n\"limbs\": {}\n}}\n",
-        model.name, model.expected.ends, model.expected.cycles, list(nodes), list(edges), list(limbs));
+        model.name, model.expected.ends, model.expected.cycles, list(nodes), list(edges),
+        list(limbs));
 }
 
 }  // namespace
