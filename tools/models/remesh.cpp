@@ -4,8 +4,9 @@
 // to the field. No step may turn a triangle over.
 #include "remesh.h"
 
+#include <OpenMesh/Core/Mesh/TriMesh_ArrayKernelT.hh>  // before QuadricT.hh, which needs it
+
 #include <OpenMesh/Core/Geometry/QuadricT.hh>
-#include <OpenMesh/Core/Mesh/TriMesh_ArrayKernelT.hh>
 #include <OpenMesh/Tools/Decimater/DecimaterT.hh>
 #include <OpenMesh/Tools/Decimater/ModBaseT.hh>
 #include <OpenMesh/Tools/Decimater/ModNormalFlippingT.hh>
