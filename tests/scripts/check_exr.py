@@ -49,7 +49,7 @@ def check_pixels(file):
     ids = file.read_image(2, 3, "uint").reshape(spec.height, spec.width)
     bases = [
         tuple(tuple(map(int, axis.split())) for axis in re.match(r"..: right (.*), down (.*), forward (.*)", text).groups())
-        for text in spec.getattribute("zskelFaceBases")
+        for text in spec.getattribute("zskelFaceBases").split("; ")
     ]
     seen = set()
     for y in range(spec.height):

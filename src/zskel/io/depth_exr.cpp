@@ -14,7 +14,6 @@
 #include <ImfOutputFile.h>
 #include <ImfStandardAttributes.h>
 #include <ImfStringAttribute.h>
-#include <ImfStringVectorAttribute.h>
 #include <ImfVecAttribute.h>
 #include <fmt/format.h>
 
@@ -64,7 +63,7 @@ std::vector<std::size_t> pixels_of_texels(int face_px) {
 }
 
 // A face as it lies in the file: direction = forward + u right + v down, u and v from -1 to 1.
-std::vector<std::string> face_bases(int face_px, const std::vector<std::size_t>& pixels) {
+std::string face_bases(int face_px, const std::vector<std::size_t>& pixels) {
     const auto n = static_cast<std::size_t>(face_px);
     std::vector<std::size_t> texels(pixels.size());
     for (std::size_t i = 0; i < pixels.size(); ++i) texels[pixels[i]] = i;
@@ -74,16 +73,15 @@ std::vector<std::string> face_bases(int face_px, const std::vector<std::size_t>&
     const auto text = [](const DVec3& v) {
         return fmt::format("{} {} {}", std::lround(v.x), std::lround(v.y), std::lround(v.z));
     };
-    std::vector<std::string> bases;
+    std::string bases;
     for (std::size_t face = 0; face < 6; ++face) {
         const std::size_t first = face * n * n;
         const DVec3 corner = direction(first);
         const DVec3 across = direction(first + n - 1);
         const DVec3 below = direction(first + n * (n - 1));
-        bases.push_back(fmt::format("{}: right {}, down {}, forward {}", kFaceNames[face],
-                                    text(glm::normalize(across - corner)),
-                                    text(glm::normalize(below - corner)),
-                                    text((across + below) * 0.5)));
+        bases += fmt::format("{}{}: right {}, down {}, forward {}", face == 0 ? "" : "; ",
+                             kFaceNames[face], text(glm::normalize(across - corner)),
+                             text(glm::normalize(below - corner)), text((across + below) * 0.5));
     }
     return bases;
 }
@@ -132,7 +130,7 @@ Imath::M44d model_from_world(const Similarity& s) {
     return {k, 0, 0, 0, 0, k, 0, 0, 0, 0, k, 0, s.center.x, s.center.y, s.center.z, 1};
 }
 
-Imf::Header header_of(const DepthDump& dump, const std::vector<std::string>& bases) {
+Imf::Header header_of(const DepthDump& dump, std::string_view bases) {
     Imf::Header header(window_of(dump.face_px), window_of(dump.face_px));
     header.compression() = Imf::ZIP_COMPRESSION;
     header.channels().insert("Z", Imf::Channel(Imf::FLOAT));
@@ -150,7 +148,7 @@ Imf::Header header_of(const DepthDump& dump, const std::vector<std::string>& bas
     text("zskelModel", dump.model);
     text("zskelBackend", dump.backend);
     text("zskelVersion", dump.version);
-    header.insert("zskelFaceBases", Imf::StringVectorAttribute(bases));
+    text("zskelFaceBases", bases);
     header.insert("zskelEyeModel", Imf::V3dAttribute(to_imath(dump.eye_model)));
     const Vec3& eye = dump.eye_world;
     header.insert("zskelEyeWorld", Imf::V3fAttribute({eye.x, eye.y, eye.z}));
@@ -277,9 +275,8 @@ class Reader {
         require(value<Imf::StringAttribute>("zskelTexelCentre") == kTexelCentre,
                 "another rule for texel centres");
         require(value<Imf::StringAttribute>("zskelUnits") == kUnits, "other units");
-        require(
-            value<Imf::StringVectorAttribute>("zskelFaceBases") == face_bases(dump.face_px, pixels),
-            "other face bases");
+        require(value<Imf::StringAttribute>("zskelFaceBases") == face_bases(dump.face_px, pixels),
+                "other face bases");
         read_attributes(dump);
         read_pixels(dump, pixels);
         return dump;
