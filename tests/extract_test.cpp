@@ -27,7 +27,7 @@ TEST_CASE(
     "extract_skeleton: a cube is one node at its centre, within one step (the paper's Figure 3)") {
     const ExtractResult result = extract_by_rays(test::cube(), {}, 16);
     REQUIRE(result.graph.nodes.size() == 1);
-    CHECK(glm::length(result.graph.nodes[0].position) <= ExtractOptions{}.steps.step_world);
+    CHECK(glm::length(result.graph.nodes[0].position) <= ExtractOptions{}.paper.steps.step_world);
     CHECK(result.graph.nodes[0].radius == doctest::Approx(0.5).epsilon(0.01));
     CHECK(result.graph.edges.empty());
     CHECK(result.statistics.seeds == 8);
@@ -109,7 +109,7 @@ TEST_CASE("extract_skeleton: progress is told, and can stop the work") {
 TEST_CASE("skeleton_json: holds nodes, edges, vertex map, statistics and provenance") {
     const Mesh mesh = test::cylinder(0.2, 1.0, 16, 9);
     ExtractOptions options;
-    options.steps.keep_paths = true;
+    options.paper.steps.keep_paths = true;
     const ExtractResult result = extract_by_rays(mesh, options);
     Provenance provenance;
     provenance.model = "a \"quoted\"\nname.obj";

@@ -154,11 +154,11 @@ std::vector<Vec3> comparison_eyes(const Surface& solid, VisibilitySource& source
                                   const ExtractOptions& options) {
     const std::size_t wanted = static_cast<std::size_t>(std::max(1, (count + 2) / 3));
     const SurfaceQuery query(solid);
-    const std::vector<Seed> all = place_seeds(solid, query, options.seeds);
+    const std::vector<Seed> all = place_seeds(solid, query, options.paper.seeds);
     const std::size_t taken = std::min(wanted, all.size());
     std::vector<Seed> seeds;
     for (std::size_t i = 0; i < taken; ++i) seeds.push_back(all[i * all.size() / taken]);
-    PaperStepOptions steps = options.steps;
+    PaperStepOptions steps = options.paper.steps;
     steps.keep_paths = true;
     std::vector<Vec3> eyes;
     for (const SettledSeed& seed : settle_seeds(source, seeds, steps)) {

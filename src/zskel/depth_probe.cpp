@@ -55,8 +55,8 @@ std::vector<DepthDump> DepthProbe::along_path(std::uint32_t vertex, const Extrac
         if (at == owned.end() || *at != place) continue;
         if (!part->source) part->source = backend_.prepare(part->solid.surface);
         const auto local = static_cast<std::size_t>(at - owned.begin());
-        const Seed seed = place_seeds(part->solid.surface, part->query, options.seeds)[local];
-        PaperStepOptions steps = options.steps;
+        const Seed seed = place_seeds(part->solid.surface, part->query, options.paper.seeds)[local];
+        PaperStepOptions steps = options.paper.steps;
         steps.keep_paths = true;
         const SettledSeed settled = settle_seeds(*part->source, std::span(&seed, 1), steps).front();
         std::vector<DepthDump> dumps;

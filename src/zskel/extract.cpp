@@ -9,8 +9,6 @@
 
 #include "zskel/core/log.h"
 #include "zskel/mesh/solid.h"
-#include "zskel/skeleton/connect.h"
-#include "zskel/visibility/surface_query.h"
 
 namespace zskel {
 namespace {
@@ -54,39 +52,16 @@ class Stages {
     std::chrono::steady_clock::time_point start_;
 };
 
-// What a solid's stages leave, still in world space and with its own numbers.
-struct SolidSkeleton {
-    std::vector<Seed> seeds;
-    std::vector<SettledSeed> settled;
-    Clusters clusters;
-    std::vector<glm::uvec2> edges;
-    std::size_t forest_edges = 0;
-    std::vector<double> radii;
-};
-
 SolidSkeleton extract_solid(const Solid& solid, const ExtractOptions& options, Backend& backend,
                             Stages& stages) {
-    SolidSkeleton out;
-    const Surface& surface = solid.surface;
-    stages.begin("seeds");
-    const SurfaceQuery query(surface);
-    out.seeds = place_seeds(surface, query, options.seeds);
-    stages.begin("settle");
-    const auto source = backend.prepare(surface);
-    out.settled = settle_seeds(*source, out.seeds, options.steps,
-                               [&](double share) { stages.report(share); });
-    stages.begin("cluster");
-    std::vector<Vec3> ends;
-    ends.reserve(out.settled.size());
-    for (const SettledSeed& seed : out.settled) ends.push_back(seed.position);
-    out.clusters = cluster_minima(ends, surface.edges, options.clusters);
-    stages.begin("connect");
-    out.edges = connect_clusters(out.clusters.of_point, surface.edges);
-    out.forest_edges = spanning_forest(out.clusters.centers, out.edges).size();
-    for (const Vec3& center : out.clusters.centers) {
-        out.radii.push_back(static_cast<double>(query.nearest(center).distance));
+    const MethodProgress progress{[&](std::string_view stage) { stages.begin(stage); },
+                                  [&](double share) { stages.report(share); }};
+    stages.begin("backend");
+    const auto source = backend.prepare(solid.surface);
+    if (options.method == Method::Paper) {
+        return extract_by_paper(solid.surface, *source, options.paper, progress);
     }
-    return out;
+    return extract_by_newton(solid.surface, solid.is_closed, *source, options.newton, progress);
 }
 
 class Assembler {
@@ -104,23 +79,34 @@ class Assembler {
     void add(std::uint32_t number, const Solid& solid, SolidSkeleton& part) {
         const Similarity& to_world = solid.surface.world_from_model;
         const auto first = static_cast<std::uint32_t>(result_.graph.nodes.size());
-        for (std::size_t n = 0; n < part.clusters.centers.size(); ++n) {
-            result_.graph.nodes.push_back({to_world.to_model(part.clusters.centers[n]),
-                                           to_world.length_to_model(part.radii[n]), number});
+        for (std::size_t n = 0; n < part.nodes.size(); ++n) {
+            const auto radius = static_cast<double>(part.radii[n]);
+            result_.graph.nodes.push_back(
+                {to_world.to_model(part.nodes[n]), to_world.length_to_model(radius), number});
         }
         for (const glm::uvec2& edge : part.edges) {
             result_.graph.edges.push_back({edge.x + first, edge.y + first});
         }
+        for (std::size_t v = 0; v < part.vertex_node.size(); ++v) {
+            surface_node_[solid.vertex[v]] = part.vertex_node[v] + first;
+        }
         for (std::size_t s = 0; s < part.seeds.size(); ++s) {
-            const std::uint32_t node = part.clusters.of_point[s] + first;
             const std::uint32_t place = solid.vertex[part.seeds[s].vertex];
-            surface_node_[place] = node;
-            add_seed(to_world, part.seeds[s], part.settled[s], node, input_vertex_[place]);
+            add_seed(to_world, part.seeds[s], part.settled[s], surface_node_[place],
+                     input_vertex_[place]);
         }
         ExtractStatistics& sums = result_.statistics;
         sums.cavities += solid.cavity_count;
         sums.forest_edges += part.forest_edges;
         sums.seeds += part.seeds.size();
+        sums.evaluations += part.refine.evaluations;
+        sums.expected_cycles += part.expected_cycles;
+        sums.refine.evaluations += part.refine.evaluations;
+        sums.refine.pruned_branches += part.refine.pruned_branches;
+        sums.refine.pruned_length_world += part.refine.pruned_length_world;
+        sums.refine.merged_junctions += part.refine.merged_junctions;
+        sums.refine.extended_ends += part.refine.extended_ends;
+        result_.warnings.insert(result_.warnings.end(), part.warnings.begin(), part.warnings.end());
     }
 
     void map_vertices(const PreparedSurface& prepared) {
@@ -153,7 +139,7 @@ class Assembler {
 
 // Says what a reader of the skeleton should not take on trust.
 void add_warnings(const Mesh& mesh, const std::vector<Solid>& solids, ExtractResult& result) {
-    result.warnings = mesh.warnings;
+    result.warnings.insert(result.warnings.begin(), mesh.warnings.begin(), mesh.warnings.end());
     for (const Repair& repair : result.repairs) {
         result.warnings.push_back(fmt::format("{}: {}", repair.what, repair.count));
     }
@@ -179,8 +165,9 @@ void add_warnings(const Mesh& mesh, const std::vector<Solid>& solids, ExtractRes
 }  // namespace
 
 Method parse_method(std::string_view name) {
+    if (name == "newton") return Method::Newton;
     if (name == "paper") return Method::Paper;
-    throw UsageError(fmt::format("unknown method '{}': paper", name));
+    throw UsageError(fmt::format("unknown method '{}': newton or paper", name));
 }
 
 std::string_view name_of(Method) {
@@ -196,7 +183,7 @@ ExtractResult extract_skeleton(const Mesh& mesh, const ExtractOptions& options, 
     ExtractResult result;
     Stages stages(result.statistics, options);
     stages.begin("prepare");
-    PreparedSurface prepared = prepare_surface(mesh);
+    PreparedSurface prepared = prepare_surface(mesh, options.method == Method::Paper ? WorldSize::UnitCube : WorldSize::Spread);
     const std::vector<Solid> solids = split_solids(prepared);
     result.repairs = prepared.repairs;
     result.statistics.faces = prepared.surface.triangles.size();

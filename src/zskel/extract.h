@@ -8,26 +8,24 @@
 #include "zskel/core/error.h"
 #include "zskel/mesh/mesh.h"
 #include "zskel/mesh/surface.h"
-#include "zskel/skeleton/cluster.h"
 #include "zskel/skeleton/graph.h"
-#include "zskel/skeleton/seeds.h"
-#include "zskel/skeleton/settle.h"
+#include "zskel/skeleton/method.h"
 #include "zskel/visibility/backend.h"
 
 namespace zskel {
 
 /// How seeds find the skeleton.
 enum class Method {
-    Paper,  ///< steps of one length along the force, as published
+    Newton,  ///< Newton steps on the force, right topology, refined
+    Paper,   ///< steps of one length along the force, as published
 };
 Method parse_method(std::string_view name);
 std::string_view name_of(Method method);
 
 struct ExtractOptions {
-    Method method = Method::Paper;
-    SeedOptions seeds;
-    PaperStepOptions steps;
-    ClusterOptions clusters;
+    Method method = Method::Newton;
+    NewtonMethodOptions newton;
+    PaperMethodOptions paper;
     /// Told the stage and its share done; false stops the work (`Cancelled` is thrown). May be
     /// empty.
     std::function<bool(std::string_view stage, double share)> progress;
@@ -64,6 +62,8 @@ struct ExtractStatistics {
     std::size_t cavities = 0;
     std::size_t seeds = 0;
     std::size_t evaluations = 0;
+    std::size_t expected_cycles = 0;  ///< handles of the closed solids; newton only
+    RefineReport refine;
     std::size_t forest_edges =
         0;  ///< edges that are left when every cycle is opened at its longest
     std::vector<StageTime> stages;
@@ -79,7 +79,7 @@ struct ExtractResult {
     Surface surface;  ///< what was worked on: all solids, world space
 };
 
-/// The whole pipeline: mesh -> surface -> solids -> seeds -> settled seeds -> clusters -> graph.
+/// The whole pipeline: mesh -> surface -> solids -> seeds -> settled seeds -> clusters -> graph -> refined.
 /// Same mesh, options and backend give the same graph, at any number of threads.
 /// @throws InputError for a mesh without area, GlError when the backend fails, Cancelled.
 ExtractResult extract_skeleton(const Mesh& mesh, const ExtractOptions& options, Backend& backend);

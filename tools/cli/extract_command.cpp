@@ -100,7 +100,7 @@ void draw_pictures(const Arguments& arguments, const ExtractResult& result, gl::
 
 ExitCode extract(const Arguments& given, const Common& common) {
     Arguments arguments = given;
-    arguments.extract.steps.keep_paths = arguments.parts.paths || !arguments.picture_paths.empty();
+    arguments.extract.paper.steps.keep_paths = arguments.parts.paths || !arguments.picture_paths.empty();
     if (arguments.output.empty())
         throw UsageError("--output needs a name, or - for standard output");
     check_outputs(arguments.model, {arguments.output, arguments.picture, arguments.picture_paths});
@@ -154,23 +154,23 @@ void add_extract_command(CLI::App& app, const Common& common, Run& run) {
             [arguments](const std::string& name) {
                 arguments->extract.method = parse_method(name);
             },
-            "paper: the published method")
+            "newton: Newton steps, right topology, refined; paper: the published method [newton]")
         ->type_name("NAME");
     add_backend_options(*command, arguments->backend);
     ExtractOptions& o = arguments->extract;
-    command->add_option("--step", o.steps.step_world, "Length of a step, in the unit cube")
+    command->add_option("--step", o.paper.steps.step_world, "Length of a step, in the unit cube")
         ->capture_default_str()
         ->check(positive_length());
-    command->add_option("--max-steps", o.steps.max_steps, "Steps after which a seed is stopped")
+    command->add_option("--max-steps", o.paper.steps.max_steps, "Steps after which a seed is stopped")
         ->capture_default_str()
         ->check(CLI::Range(1, 1 << 30));
     command
-        ->add_option("--offset", o.seeds.offset_world,
+        ->add_option("--offset", o.paper.seeds.offset_world,
                      "How far inside the surface seeds start, in the unit cube")
         ->capture_default_str()
         ->check(positive_length());
     command
-        ->add_option("--cluster", o.clusters.range_world,
+        ->add_option("--cluster", o.paper.clusters.range_world,
                      "Range within which end points become one node, in the unit cube")
         ->capture_default_str()
         ->check(length_or_zero());

@@ -67,6 +67,10 @@ Json statistics_json(const ExtractResult& result) {
             {"edges_without_cycles", s.forest_edges},
             {"components", topology.components},
             {"cycles", topology.cycles},
+            {"expected_cycles", s.expected_cycles},
+            {"pruned_branches", s.refine.pruned_branches},
+            {"merged_junctions", s.refine.merged_junctions},
+            {"extended_ends", s.refine.extended_ends},
             {"seeds", s.seeds},
             {"seed_states", states},
             {"evaluations", s.evaluations},
@@ -75,16 +79,28 @@ Json statistics_json(const ExtractResult& result) {
 
 Json options_json(const Provenance& provenance) {
     const ExtractOptions& o = provenance.options;
-    return {{"method", name_of(o.method)},
-            {"backend", name_of(provenance.backend_options.kind)},
-            {"gpu", provenance.backend_options.gpu},
-            {"face_px", provenance.backend_options.face_px},
-            {"rays", provenance.backend_options.rays},
-            {"offset_world", o.seeds.offset_world},
-            {"max_offset_thickness", o.seeds.max_offset_thickness},
-            {"step_world", o.steps.step_world},
-            {"max_steps", o.steps.max_steps},
-            {"cluster_range_world", o.clusters.range_world}};
+    Json out{{"method", name_of(o.method)},
+             {"backend", name_of(provenance.backend_options.kind)},
+             {"gpu", provenance.backend_options.gpu},
+             {"face_px", provenance.backend_options.face_px},
+             {"rays", provenance.backend_options.rays}};
+    if (o.method == Method::Paper) {
+        out.update({{"offset_world", o.paper.seeds.offset_world},
+                    {"max_offset_thickness", o.paper.seeds.max_offset_thickness},
+                    {"step_world", o.paper.steps.step_world},
+                    {"max_steps", o.paper.steps.max_steps},
+                    {"cluster_range_world", o.paper.clusters.range_world}});
+    } else {
+        out.update({{"offset_world", o.newton.seeds.offset_world},
+                    {"max_offset_thickness", o.newton.seeds.max_offset_thickness},
+                    {"max_seeds", o.newton.spread.max_seeds},
+                    {"spacing_thickness", o.newton.spread.spacing_thickness},
+                    {"max_steps", o.newton.steps.max_steps},
+                    {"cluster_radii", o.newton.cluster_radii},
+                    {"detail", o.newton.refine.detail},
+                    {"sweeps", o.newton.refine.sweeps}});
+    }
+    return out;
 }
 
 Json provenance_json(const Provenance& provenance, const Similarity& world) {

@@ -249,9 +249,31 @@ Similarity unit_cube(const std::vector<DVec3>& positions, const std::string& nam
     return {low + half, 1.0 / size};
 }
 
+// Second moments of the triangles about their common centroid, in the unit cube so that nothing overflows.
+Similarity by_spread(const Welded& welded, const Similarity& cube) {
+    double area_sum = 0.0;
+    DVec3 first(0.0);
+    double second = 0.0;
+    for (const Triangle& t : welded.triangles) {
+        const DVec3 a = (welded.positions[t.x] - cube.center) * cube.scale;
+        const DVec3 b = (welded.positions[t.y] - cube.center) * cube.scale;
+        const DVec3 c = (welded.positions[t.z] - cube.center) * cube.scale;
+        const double area = 0.5 * glm::length(glm::cross(b - a, c - a));
+        const DVec3 sum = a + b + c;
+        area_sum += area;
+        first += sum * (area / 3.0);
+        second += area / 12.0 * (glm::dot(a, a) + glm::dot(b, b) + glm::dot(c, c) + glm::dot(sum, sum));
+    }
+    if (!(area_sum > 0.0)) return cube;
+    const DVec3 centroid = first / area_sum;
+    const double variance = second / area_sum - glm::dot(centroid, centroid);
+    if (!(variance > 0.0)) return cube;
+    return {cube.center + centroid / cube.scale, cube.scale * kWorldSpread / std::sqrt(variance)};
+}
+
 }  // namespace
 
-PreparedSurface prepare_surface(const Mesh& mesh) {
+PreparedSurface prepare_surface(const Mesh& mesh, WorldSize size) {
     PreparedSurface out;
     Welded welded = weld(mesh, out);
     drop_duplicates(welded, out);
@@ -261,6 +283,7 @@ PreparedSurface prepare_surface(const Mesh& mesh) {
     }
     orient(welded, out);
     out.surface.world_from_model = unit_cube(welded.positions, mesh.name);
+    if (size == WorldSize::Spread) out.surface.world_from_model = by_spread(welded, out.surface.world_from_model);
     out.surface.positions.reserve(welded.positions.size());
     for (const DVec3& p : welded.positions) {
         out.surface.positions.push_back(out.surface.world_from_model.to_world(p));

@@ -47,10 +47,18 @@ struct PreparedSurface {
     std::vector<Repair> repairs;
 };
 
+/// How world space is scaled.
+enum class WorldSize {
+    UnitCube,   ///< the longest side of the bounding box is 1, its middle at 0 (the paper's)
+    Spread,     ///< the area's root mean square distance from its centroid is kWorldSpread: the same however the
+                ///< model is turned, and about a unit cube for the shapes that one meets
+};
+inline constexpr double kWorldSpread = 0.3;
+
 /// Welds equal positions, drops faces that repeat a corner or another face, orients every component
-/// (consistently, and outward by its signed volume), and scales the whole into the unit cube.
+/// (consistently, and outward by its signed volume), and scales the whole.
 /// @throws InputError when no triangle with area is left.
-PreparedSurface prepare_surface(const Mesh& mesh);
+PreparedSurface prepare_surface(const Mesh& mesh, WorldSize size = WorldSize::UnitCube);
 
 /// Fills normals and edges from positions and triangles.
 void derive_normals_and_edges(Surface& surface);

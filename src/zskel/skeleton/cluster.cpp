@@ -8,7 +8,7 @@ namespace zskel {
 namespace {
 
 struct Pair {
-    double distance;
+    double distance;  // over the range
     std::uint32_t a;  // cluster names: their number in order of making, points first
     std::uint32_t b;
     bool operator>(const Pair& other) const {
@@ -18,19 +18,23 @@ struct Pair {
 
 struct Cluster {
     DVec3 sum{0.0};
+    double range_sum = 0.0;
     double count = 0.0;
     std::vector<std::uint32_t> neighbours;  // may name clusters that have been merged since
     std::uint32_t merged_into = kNone;
 
     DVec3 center() const { return sum / count; }
+    double range() const { return range_sum / count; }
 };
 
 class Merger {
   public:
-    Merger(std::span<const Vec3> points, std::span<const glm::uvec2> links, double range)
-        : range_(range) {
+    Merger(std::span<const Vec3> points, std::span<const glm::uvec2> links,
+           std::span<const float> ranges) {
         clusters_.reserve(points.size() * 2);
-        for (const Vec3& p : points) clusters_.push_back({DVec3(p), 1.0, {}, kNone});
+        for (std::size_t i = 0; i < points.size(); ++i) {
+            clusters_.push_back({DVec3(points[i]), static_cast<double>(ranges[i]), 1.0, {}, kNone});
+        }
         for (const glm::uvec2& link : links) {
             clusters_[link.x].neighbours.push_back(link.y);
             clusters_[link.y].neighbours.push_back(link.x);
@@ -57,8 +61,12 @@ class Merger {
 
   private:
     void offer(std::uint32_t a, std::uint32_t b) {
-        const double distance = glm::distance(clusters_[a].center(), clusters_[b].center());
-        if (distance <= range_) queue_.push({distance, std::min(a, b), std::max(a, b)});
+        const double distance =
+            glm::distance(clusters_[a].center(), clusters_[b].center());
+        const double range = std::min(clusters_[a].range(), clusters_[b].range());
+        if (distance > range) return;
+        const double share = range > 0.0 ? distance / range : 0.0;
+        queue_.push({share, std::min(a, b), std::max(a, b)});
     }
 
     // A merged pair gets a new name, so that entries in the queue for its parts are known to be
@@ -67,6 +75,7 @@ class Merger {
         const auto name = static_cast<std::uint32_t>(clusters_.size());
         Cluster merged;
         merged.sum = clusters_[a].sum + clusters_[b].sum;
+        merged.range_sum = clusters_[a].range_sum + clusters_[b].range_sum;
         merged.count = clusters_[a].count + clusters_[b].count;
         for (const std::uint32_t part : {a, b}) {
             for (const std::uint32_t n : clusters_[part].neighbours) {
@@ -88,7 +97,6 @@ class Merger {
         }
     }
 
-    double range_;
     std::vector<Cluster> clusters_;
     std::priority_queue<Pair, std::vector<Pair>, std::greater<>> queue_;
 };
@@ -96,8 +104,8 @@ class Merger {
 }  // namespace
 
 Clusters cluster_minima(std::span<const Vec3> points, std::span<const glm::uvec2> links,
-                        const ClusterOptions& options) {
-    Merger merger(points, links, options.range_world);
+                        std::span<const float> ranges) {
+    Merger merger(points, links, ranges);
     merger.run();
     Clusters out;
     out.of_point.resize(points.size());
@@ -111,6 +119,12 @@ Clusters cluster_minima(std::span<const Vec3> points, std::span<const glm::uvec2
         out.of_point[p] = number[cluster];
     }
     return out;
+}
+
+Clusters cluster_minima(std::span<const Vec3> points, std::span<const glm::uvec2> links,
+                        const ClusterOptions& options) {
+    const std::vector<float> ranges(points.size(), static_cast<float>(options.range_world));
+    return cluster_minima(points, links, ranges);
 }
 
 }  // namespace zskel

@@ -22,9 +22,13 @@ struct ClusterOptions {
 /// Starts from every point alone. O(n log n) for n edges.
 /// @param links  pairs of points that neighbour each other on the surface.
 /// @see Wu et al. 2003, section 4.2, which leaves the manner open: chains of single links would
-/// swallow
-///      whole limbs, and a grid splits nodes; centres keep clusters about one range apart.
+///      swallow whole limbs, and a grid splits nodes; centres keep clusters about one range apart.
 Clusters cluster_minima(std::span<const Vec3> points, std::span<const glm::uvec2> links,
                         const ClusterOptions& options);
+
+/// The same with a range for each point: two clusters merge within the smaller of their members' mean
+/// ranges, the pair first that is nearest in terms of it.
+Clusters cluster_minima(std::span<const Vec3> points, std::span<const glm::uvec2> links,
+                        std::span<const float> ranges);
 
 }  // namespace zskel

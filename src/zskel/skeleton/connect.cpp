@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <numeric>
 
-#include "zskel/skeleton/disjoint_sets.h"
+#include "zskel/core/disjoint_sets.h"
 
 namespace zskel {
 namespace {

@@ -1,6 +1,6 @@
 #include "zskel/skeleton/graph.h"
 
-#include "zskel/skeleton/disjoint_sets.h"
+#include "zskel/core/disjoint_sets.h"
 
 namespace zskel {
 

@@ -1,0 +1,61 @@
+#pragma once
+
+#include <functional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "zskel/skeleton/cluster.h"
+#include "zskel/skeleton/newton.h"
+#include "zskel/skeleton/refine.h"
+#include "zskel/skeleton/seeds.h"
+#include "zskel/skeleton/settle.h"
+#include "zskel/skeleton/spread.h"
+
+namespace zskel {
+
+/// The skeleton of one solid, world space, with the solid's own vertex numbers.
+struct SolidSkeleton {
+    std::vector<Vec3> nodes;
+    std::vector<float> radii;                   ///< inscribed
+    std::vector<glm::uvec2> edges;              ///< lower node first, each once, sorted
+    std::vector<std::uint32_t> vertex_node;     ///< of every vertex
+    std::vector<Seed> seeds;
+    std::vector<SettledSeed> settled;           ///< of every seed
+    std::size_t forest_edges = 0;               ///< edges left when every cycle is opened at its longest
+    std::size_t expected_cycles = 0;            ///< handles; 0 where they are not known
+    RefineReport refine;
+    std::vector<std::string> warnings;
+};
+
+/// Told of each stage as it begins, and of its share done.
+struct MethodProgress {
+    std::function<void(std::string_view stage)> begin;
+    std::function<void(double share)> report;
+};
+
+/// The published method (Wu et al. 2003).
+struct PaperMethodOptions {
+    SeedOptions seeds;
+    PaperStepOptions steps;
+    ClusterOptions clusters;
+};
+SolidSkeleton extract_by_paper(const Surface& surface, VisibilitySource& source, const PaperMethodOptions& options,
+                               const MethodProgress& progress);
+
+/// Newton steps from spread seeds, a network with the solid's topology, refined.
+/// @param is_closed  whether handles are to be found; on an open surface the network is a forest.
+struct NewtonMethodOptions {
+    SeedOptions seeds;
+    SpreadOptions spread;
+    NewtonOptions steps;
+    double cluster_radii = 0.5;                 ///< range within which end points become one, in local radii
+    double min_cluster_world = 0.006;           ///< but between these
+    double max_cluster_world = 0.05;
+    int max_retries = 4;                        ///< each with half the range, when clusters have swallowed a handle
+    RefineOptions refine;
+};
+SolidSkeleton extract_by_newton(const Surface& surface, bool is_closed, VisibilitySource& source,
+                                const NewtonMethodOptions& options, const MethodProgress& progress);
+
+}  // namespace zskel

@@ -1,0 +1,262 @@
+#include "zskel/skeleton/network.h"
+
+#include <algorithm>
+#include <map>
+#include <numeric>
+#include <utility>
+
+#include "zskel/core/disjoint_sets.h"
+#include "zskel/core/parallel.h"
+#include "zskel/mesh/vertex_graph.h"
+
+namespace zskel {
+namespace {
+
+using Class = std::vector<std::int64_t>;
+
+struct Candidate {
+    Connection connection;
+    Class cls;                  // along the mesh edge, from root to root of the two patches
+};
+
+void add_to(Class& sum, const Class& other, std::int64_t sign) {
+    for (std::size_t k = 0; k < sum.size(); ++k) sum[k] += sign * other[k];
+}
+
+class Network {
+  public:
+    Network(const ClusterContext& context, const std::optional<HandleClasses>& handles)
+        : context_(context), handles_(handles), genus_(handles ? handles->genus : 0),
+          graph_(context.surface.positions.size(), context.surface.edges) {
+        walk_patches();
+        gather();
+        parallel_for(candidates_.size(), 8, [&](std::size_t begin, std::size_t end) {
+            for (std::size_t i = begin; i < end; ++i) lay_path(candidates_[i].connection);
+        });
+    }
+
+    std::vector<Connection> choose(bool& enough) {
+        std::vector<std::uint32_t> order(candidates_.size());
+        std::iota(order.begin(), order.end(), 0u);
+        std::stable_sort(order.begin(), order.end(), [&](auto l, auto r) {
+            const Connection& a = candidates_[l].connection;
+            const Connection& b = candidates_[r].connection;
+            return std::pair(!a.is_inside, a.length) < std::pair(!b.is_inside, b.length);
+        });
+        std::vector<Connection> chosen;
+        std::vector<std::uint32_t> others;
+        DisjointSets sets(context_.clusters.centers.size());
+        tree_.assign(context_.clusters.centers.size(), {});
+        for (const std::uint32_t i : order) {
+            const Connection& c = candidates_[i].connection;
+            if (!sets.unite(c.a, c.b)) {
+                others.push_back(i);
+                continue;
+            }
+            chosen.push_back(c);
+            tree_[c.a].push_back({c.b, i, 1});
+            tree_[c.b].push_back({c.a, i, -1});
+        }
+        enough = genus_ == 0 || add_cycles(others, chosen);
+        return chosen;
+    }
+
+  private:
+    struct TreeLink {
+        std::uint32_t cluster;
+        std::uint32_t candidate;
+        std::int64_t sign;
+    };
+
+    std::uint32_t cluster_of(std::uint32_t vertex) const {
+        return context_.clusters.of_point[context_.spread.seed_of[vertex]];
+    }
+
+    Class class_of(std::uint32_t edge, bool forward) const {
+        Class out(genus_, 0);
+        for (std::size_t k = 0; k < genus_; ++k) {
+            out[k] = (forward ? 1 : -1) * handles_->edge_class[edge * genus_ + k];
+        }
+        return out;
+    }
+
+    // The class of the way from its patch's root to every vertex, within the patch.
+    void walk_patches() {
+        if (genus_ == 0) return;
+        from_root_.assign(graph_.size(), {});
+        for (std::uint32_t root = 0; root < graph_.size(); ++root) {
+            if (!from_root_[root].empty()) continue;
+            from_root_[root].assign(genus_, 0);
+            std::vector<std::uint32_t> queue{root};
+            for (std::size_t i = 0; i < queue.size(); ++i) {
+                const std::uint32_t v = queue[i];
+                for (const VertexGraph::Link& link : graph_.of(v)) {
+                    if (!from_root_[link.vertex].empty() || cluster_of(link.vertex) != cluster_of(v)) continue;
+                    Class cls = from_root_[v];
+                    add_to(cls, class_of(link.edge, v < link.vertex), 1);
+                    from_root_[link.vertex] = std::move(cls);
+                    queue.push_back(link.vertex);
+                }
+            }
+        }
+    }
+
+    // One candidate for each pair of clusters and class.
+    void gather() {
+        std::map<std::pair<std::pair<std::uint32_t, std::uint32_t>, Class>, std::size_t> known;
+        for (std::uint32_t e = 0; e < context_.surface.edges.size(); ++e) {
+            std::uint32_t v = context_.surface.edges[e].x;
+            std::uint32_t w = context_.surface.edges[e].y;
+            if (cluster_of(v) == cluster_of(w)) continue;
+            Class cls = class_of(e, true);
+            if (cluster_of(v) > cluster_of(w)) {
+                std::swap(v, w);
+                cls = class_of(e, false);
+            }
+            if (genus_ > 0) {
+                add_to(cls, from_root_[v], 1);
+                add_to(cls, from_root_[w], -1);
+            }
+            Candidate candidate{{cluster_of(v), cluster_of(w), v, w, {}, 0.0f, true}, cls};
+            const auto [at, is_new] = known.try_emplace({{candidate.connection.a, candidate.connection.b}, cls}, candidates_.size());
+            if (is_new) candidates_.push_back(std::move(candidate));
+        }
+    }
+
+    // Straight when that is free; else down the way of one seed, along the surface, and up the other's.
+    void lay_path(Connection& c) const {
+        const Vec3& from = context_.clusters.centers[c.a];
+        const Vec3& to = context_.clusters.centers[c.b];
+        c.path = {from, to};
+        if (!is_free(c.path, context_.query)) {
+            std::vector<Vec3> way{from};
+            append_way(c.vertex_a, way);
+            std::vector<Vec3> back{to};
+            append_way(c.vertex_b, back);
+            way.insert(way.end(), back.rbegin(), back.rend());
+            c.path = pull_tight(way, context_.query);
+            c.is_inside = is_free(c.path, context_.query);
+        }
+        c.length = 0.0f;
+        for (std::size_t i = 1; i < c.path.size(); ++i) c.length += glm::distance(c.path[i - 1], c.path[i]);
+    }
+
+    // From the end of the vertex's seed, back along its path to its start, then over the surface to the vertex.
+    void append_way(std::uint32_t vertex, std::vector<Vec3>& way) const {
+        const SettledSeed& seed = context_.settled[context_.spread.seed_of[vertex]];
+        way.insert(way.end(), seed.path.rbegin(), seed.path.rend());
+        std::vector<Vec3> over;
+        for (std::uint32_t v = vertex;; v = context_.spread.parent[v]) {
+            over.push_back(context_.inner[v]);
+            if (context_.spread.parent[v] == v) break;
+        }
+        way.insert(way.end(), over.rbegin(), over.rend());
+    }
+
+    struct Cycle {
+        std::uint32_t candidate;
+        float length;
+        Class cls;
+    };
+
+    // Distance and class from the root of its tree to every cluster.
+    void walk_tree() {
+        const std::size_t count = tree_.size();
+        parent_.assign(count, kNone);
+        depth_.assign(count, 0);
+        reach_.assign(count, 0.0f);
+        potential_.assign(count, Class(genus_, 0));
+        for (std::uint32_t root = 0; root < count; ++root) {
+            if (parent_[root] != kNone) continue;
+            parent_[root] = root;
+            std::vector<std::uint32_t> queue{root};
+            for (std::size_t i = 0; i < queue.size(); ++i) {
+                const std::uint32_t c = queue[i];
+                for (const TreeLink& link : tree_[c]) {
+                    if (parent_[link.cluster] != kNone) continue;
+                    parent_[link.cluster] = c;
+                    depth_[link.cluster] = depth_[c] + 1;
+                    reach_[link.cluster] = reach_[c] + candidates_[link.candidate].connection.length;
+                    potential_[link.cluster] = potential_[c];
+                    add_to(potential_[link.cluster], candidates_[link.candidate].cls, link.sign);
+                    queue.push_back(link.cluster);
+                }
+            }
+        }
+    }
+
+    std::uint32_t meeting(std::uint32_t a, std::uint32_t b) const {
+        while (a != b) {
+            if (depth_[a] < depth_[b]) std::swap(a, b);
+            a = parent_[a];
+        }
+        return a;
+    }
+
+    bool add_cycles(const std::vector<std::uint32_t>& others, std::vector<Connection>& chosen) {
+        walk_tree();
+        std::vector<Cycle> cycles;
+        for (const std::uint32_t i : others) {
+            const Connection& c = candidates_[i].connection;
+            if (!c.is_inside) continue;
+            Class cls = candidates_[i].cls;
+            add_to(cls, potential_[c.a], 1);
+            add_to(cls, potential_[c.b], -1);
+            if (std::all_of(cls.begin(), cls.end(), [](std::int64_t k) { return k == 0; })) continue;
+            const float length = c.length + reach_[c.a] + reach_[c.b] - 2.0f * reach_[meeting(c.a, c.b)];
+            cycles.push_back({i, length, std::move(cls)});
+        }
+        std::stable_sort(cycles.begin(), cycles.end(), [](const Cycle& l, const Cycle& r) { return l.length < r.length; });
+        std::vector<Class> accepted;
+        for (const Cycle& cycle : cycles) {
+            if (accepted.size() == genus_) break;
+            accepted.push_back(cycle.cls);
+            if (is_primitive(accepted)) {
+                chosen.push_back(candidates_[cycle.candidate].connection);
+            } else {
+                accepted.pop_back();
+            }
+        }
+        return accepted.size() == genus_;
+    }
+
+    const ClusterContext& context_;
+    const std::optional<HandleClasses>& handles_;
+    std::size_t genus_;
+    VertexGraph graph_;
+    std::vector<Class> from_root_;
+    std::vector<Candidate> candidates_;
+    std::vector<std::vector<TreeLink>> tree_;
+    std::vector<std::uint32_t> parent_;
+    std::vector<std::uint32_t> depth_;
+    std::vector<float> reach_;
+    std::vector<Class> potential_;
+};
+
+}  // namespace
+
+std::vector<Connection> connect_network(const ClusterContext& context, const std::optional<HandleClasses>& handles,
+                                        bool& enough) {
+    return Network(context, handles).choose(enough);
+}
+
+std::vector<Vec3> pull_tight(const std::vector<Vec3>& path, const SurfaceQuery& query) {
+    std::vector<Vec3> out{path.front()};
+    std::size_t at = 0;
+    while (at + 1 < path.size()) {
+        std::size_t next = path.size() - 1;
+        while (next > at + 1 && query.first_hit(path[at], path[next])) --next;
+        out.push_back(path[next]);
+        at = next;
+    }
+    return out;
+}
+
+bool is_free(std::span<const Vec3> path, const SurfaceQuery& query) {
+    for (std::size_t i = 1; i < path.size(); ++i) {
+        if (query.first_hit(path[i - 1], path[i])) return false;
+    }
+    return true;
+}
+
+}  // namespace zskel

@@ -1,0 +1,464 @@
+#include "zskel/skeleton/refine.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "zskel/core/eigen3.h"
+
+namespace zskel {
+namespace {
+
+using Node = CurveGraph::Node;
+
+void link(CurveGraph& graph, std::uint32_t a, std::uint32_t b) {
+    graph.nodes[a].links.push_back(b);
+    graph.nodes[b].links.push_back(a);
+}
+
+void unlink_one(std::vector<std::uint32_t>& links, std::uint32_t node) {
+    const auto at = std::find(links.begin(), links.end(), node);
+    if (at != links.end()) links.erase(at);
+}
+
+void unlink(CurveGraph& graph, std::uint32_t a, std::uint32_t b) {
+    unlink_one(graph.nodes[a].links, b);
+    unlink_one(graph.nodes[b].links, a);
+}
+
+bool is_branch_end(const Node& node) { return node.links.size() != 2; }
+
+// Nodes from `first` over `second` to the next end or junction, or round to `first`.
+std::vector<std::uint32_t> walk(const CurveGraph& graph, std::uint32_t first, std::uint32_t second) {
+    std::vector<std::uint32_t> path{first, second};
+    while (!is_branch_end(graph.nodes[path.back()]) && path.back() != first) {
+        const auto& links = graph.nodes[path.back()].links;
+        path.push_back(links[0] == path[path.size() - 2] ? links[1] : links[0]);
+    }
+    return path;
+}
+
+// Every branch once, from its lower end; closed rings without a junction from their lowest node.
+std::vector<std::vector<std::uint32_t>> branches_of(const CurveGraph& graph) {
+    std::vector<std::vector<std::uint32_t>> out;
+    std::vector<bool> seen(graph.nodes.size(), false);
+    for (std::uint32_t n = 0; n < graph.nodes.size(); ++n) {
+        const Node& node = graph.nodes[n];
+        if (node.is_removed || !is_branch_end(node)) continue;
+        for (const std::uint32_t next : node.links) {
+            std::vector<std::uint32_t> path = walk(graph, n, next);
+            const bool is_mirror = path.back() < n || (path.back() == n && path[1] > path[path.size() - 2]);
+            for (const std::uint32_t p : path) seen[p] = true;
+            if (!is_mirror) out.push_back(std::move(path));
+        }
+    }
+    for (std::uint32_t n = 0; n < graph.nodes.size(); ++n) {
+        const Node& node = graph.nodes[n];
+        if (node.is_removed || seen[n] || node.links.size() != 2) continue;
+        out.push_back(walk(graph, n, node.links[0]));
+        for (const std::uint32_t p : out.back()) seen[p] = true;
+    }
+    return out;
+}
+
+float length_of(const CurveGraph& graph, const std::vector<std::uint32_t>& path) {
+    float sum = 0.0f;
+    for (std::size_t i = 1; i < path.size(); ++i) {
+        sum += glm::distance(graph.nodes[path[i - 1]].position, graph.nodes[path[i]].position);
+    }
+    return sum;
+}
+
+void give_seeds(CurveGraph& graph, std::uint32_t from, std::uint32_t to) {
+    auto& source = graph.nodes[from].seeds;
+    auto& target = graph.nodes[to].seeds;
+    target.insert(target.end(), source.begin(), source.end());
+    source.clear();
+}
+
+class Refiner {
+  public:
+    Refiner(CurveGraph& graph, std::span<const Vec3> seed_points, const SurfaceQuery& query, VisibilitySource& source,
+            const RefineOptions& options)
+        : graph_(graph), seed_points_(seed_points), query_(query), source_(source), options_(options) {}
+
+    RefineReport run() {
+        merge_junctions();
+        prune();
+        merge_junctions();
+        extend_ends();
+        resample();
+        for (int i = 0; i < options_.smoothing_sweeps; ++i) sweep(0.0);
+        for (int i = 0; i < options_.sweeps; ++i) sweep(options_.centring);
+        resample();
+        for (Node& node : graph_.nodes) {
+            if (!node.is_removed) node.radius = query_.nearest(node.position).distance;
+        }
+        return report_;
+    }
+
+  private:
+    bool free_between(const Vec3& a, const Vec3& b) const { return !query_.first_hit(a, b); }
+
+    // How far the branch's surface reaches beyond the rest of the skeleton, in the rest's own radii; 1 at the
+    // inscribed balls.
+    double reach_of(const std::vector<std::uint32_t>& path) const {
+        std::vector<bool> in_branch(graph_.nodes.size(), false);
+        for (std::size_t i = 1; i < path.size(); ++i) in_branch[path[i]] = true;
+        double reach = 0.0;
+        for (std::size_t i = 1; i < path.size(); ++i) {
+            for (const std::uint32_t s : graph_.nodes[path[i]].seeds) {
+                reach = std::max(reach, distance_in_radii(seed_points_[s], in_branch));
+            }
+        }
+        return reach;
+    }
+
+    double distance_in_radii(const Vec3& point, const std::vector<bool>& left_out) const {
+        double least = 1e9;
+        for (std::uint32_t n = 0; n < graph_.nodes.size(); ++n) {
+            const Node& node = graph_.nodes[n];
+            if (node.is_removed || left_out[n]) continue;
+            least = std::min(least, static_cast<double>(glm::distance(point, node.position) / std::max(node.radius, 1e-9f)));
+        }
+        return least;
+    }
+
+    // The least of reach and length, each over what a limb has to have; below 1 it is a spur.
+    double limb_measure(const std::vector<std::uint32_t>& path) const {
+        const double radius = options_.detail * static_cast<double>(std::max(graph_.nodes[path.front()].radius, 1e-9f));
+        return std::min(reach_of(path) / (options_.least_reach_radii * options_.detail),
+                        static_cast<double>(length_of(graph_, path)) / (options_.least_length_radii * radius));
+    }
+
+    // Spurs go, the least first, since what is left may join to a longer limb.
+    void prune() {
+        while (true) {
+            double least = 1.0;
+            std::vector<std::uint32_t> worst;
+            for (const std::vector<std::uint32_t>& branch : branches_of(graph_)) {
+                std::vector<std::uint32_t> path = branch;
+                const bool front_ends = graph_.nodes[path.front()].links.size() == 1;
+                const bool back_ends = graph_.nodes[path.back()].links.size() == 1;
+                if (front_ends && back_ends) {
+                    shrink_blob(path);
+                    continue;
+                }
+                if (front_ends == back_ends) continue;
+                if (front_ends) std::reverse(path.begin(), path.end());
+                const double measure = limb_measure(path);
+                if (measure < least) {
+                    least = measure;
+                    worst = path;
+                }
+            }
+            if (worst.empty()) return;
+            remove_branch(worst);
+        }
+    }
+
+    // A lone branch that is short against its own radius is no limb: it becomes the node of greatest radius.
+    void shrink_blob(const std::vector<std::uint32_t>& path) {
+        const std::uint32_t center = *std::max_element(path.begin(), path.end(), [&](auto l, auto r) {
+            return graph_.nodes[l].radius < graph_.nodes[r].radius;
+        });
+        const double radius = options_.detail * static_cast<double>(graph_.nodes[center].radius);
+        if (static_cast<double>(length_of(graph_, path)) >= options_.least_length_radii * radius) return;
+        ++report_.pruned_branches;
+        report_.pruned_length_world += static_cast<double>(length_of(graph_, path));
+        for (std::size_t i = 1; i < path.size(); ++i) unlink(graph_, path[i - 1], path[i]);
+        for (const std::uint32_t n : path) {
+            if (n == center) continue;
+            give_seeds(graph_, n, center);
+            graph_.nodes[n].is_removed = true;
+        }
+    }
+
+    void remove_branch(const std::vector<std::uint32_t>& path) {
+        ++report_.pruned_branches;
+        report_.pruned_length_world += static_cast<double>(length_of(graph_, path));
+        for (std::size_t i = path.size() - 1; i > 0; --i) {
+            unlink(graph_, path[i - 1], path[i]);
+            give_seeds(graph_, path[i], path.front());
+            graph_.nodes[path[i]].is_removed = true;
+        }
+    }
+
+    // Two junctions become one, the one with the greater radius, when the other's neighbours can be joined to it.
+    void merge_junctions() {
+        bool changed = true;
+        while (changed) {
+            changed = false;
+            for (const std::vector<std::uint32_t>& branch : branches_of(graph_)) {
+                if (branch.front() == branch.back()) continue;
+                if (graph_.nodes[branch.front()].links.size() < 3 || graph_.nodes[branch.back()].links.size() < 3) continue;
+                if (try_merge(branch)) {
+                    ++report_.merged_junctions;
+                    changed = true;
+                    break;
+                }
+            }
+        }
+    }
+
+    bool try_merge(const std::vector<std::uint32_t>& branch) {
+        std::uint32_t keep = branch.front();
+        std::uint32_t drop = branch.back();
+        if (graph_.nodes[keep].radius < graph_.nodes[drop].radius) std::swap(keep, drop);
+        const double bound = options_.merge_radii * static_cast<double>(graph_.nodes[keep].radius);
+        if (static_cast<double>(length_of(graph_, branch)) >= bound) return false;
+        const std::uint32_t last = drop == branch.back() ? branch[branch.size() - 2] : branch[1];
+        std::vector<std::uint32_t> moved = graph_.nodes[drop].links;
+        unlink_one(moved, last);
+        for (const std::uint32_t n : moved) {
+            const auto& kept = graph_.nodes[keep].links;
+            const bool is_double = n == keep || std::find(kept.begin(), kept.end(), n) != kept.end();
+            if (is_double || !free_between(graph_.nodes[n].position, graph_.nodes[keep].position)) return false;
+        }
+        for (std::size_t i = 1; i < branch.size(); ++i) unlink(graph_, branch[i - 1], branch[i]);
+        for (const std::uint32_t n : branch) {
+            if (n == keep) continue;
+            give_seeds(graph_, n, keep);
+            graph_.nodes[n].is_removed = true;
+        }
+        for (const std::uint32_t n : moved) {
+            unlink(graph_, n, drop);
+            link(graph_, n, keep);
+        }
+        return true;
+    }
+
+    // An end goes on straight ahead, or to the farthest of its own surface when that lies farther ahead.
+    void extend_ends() {
+        const std::size_t count = graph_.nodes.size();
+        for (std::uint32_t n = 0; n < count; ++n) {
+            const Node& node = graph_.nodes[n];
+            if (node.is_removed || node.links.size() != 1) continue;
+            const Vec3 back = node.position - before_end(n);
+            if (!(glm::length(back) > 0.0f)) continue;
+            const Vec3 ahead = glm::normalize(back);
+            const auto hit = query_.first_hit(node.position, node.position + ahead);
+            Vec3 tip = node.position + ahead * (hit ? hit->fraction : 0.0f);
+            for (const std::uint32_t s : node.seeds) {
+                const Vec3 way = seed_points_[s] - node.position;
+                const bool is_ahead = glm::dot(way, ahead) > 0.8f * glm::length(way);
+                if (is_ahead && glm::length(way) > glm::distance(tip, node.position)) tip = seed_points_[s];
+            }
+            extend_to(n, tip);
+        }
+    }
+
+    // A point of the branch about one radius back from its end.
+    Vec3 before_end(std::uint32_t end) const {
+        const std::vector<std::uint32_t> path = walk(graph_, end, graph_.nodes[end].links[0]);
+        std::size_t i = 1;
+        while (i + 1 < path.size() &&
+               glm::distance(graph_.nodes[path[i]].position, graph_.nodes[end].position) < graph_.nodes[end].radius) {
+            ++i;
+        }
+        return graph_.nodes[path[i]].position;
+    }
+
+    void extend_to(std::uint32_t n, const Vec3& tip) {
+        const Vec3 from = graph_.nodes[n].position;
+        const float gap = static_cast<float>(options_.tip_gap_radii) * graph_.nodes[n].radius;
+        const float distance = glm::distance(tip, from);
+        if (distance <= 1.5f * gap) return;
+        const Vec3 end = from + (tip - from) * (1.0f - gap / distance);
+        if (!free_between(from, end)) return;
+        Node extended;
+        extended.position = end;
+        extended.radius = query_.nearest(end).distance;
+        graph_.nodes.push_back(std::move(extended));
+        link(graph_, n, static_cast<std::uint32_t>(graph_.nodes.size() - 1));
+        ++report_.extended_ends;
+    }
+
+    double spacing_at(float radius) const {
+        return std::clamp(static_cast<double>(radius), options_.min_spacing_world, options_.max_spacing_world);
+    }
+
+    // New nodes along every branch, as far apart as the local radius says; the seeds go to the nearest of them.
+    void resample() {
+        for (const std::vector<std::uint32_t>& branch : branches_of(graph_)) {
+            std::vector<Vec3> line;
+            std::vector<std::uint32_t> seeds;
+            for (std::size_t i = 0; i < branch.size(); ++i) {
+                Node& node = graph_.nodes[branch[i]];
+                line.push_back(node.position);
+                if (i == 0 || i + 1 == branch.size()) continue;
+                seeds.insert(seeds.end(), node.seeds.begin(), node.seeds.end());
+                node.is_removed = true;
+            }
+            for (std::size_t i = 1; i < branch.size(); ++i) unlink(graph_, branch[i - 1], branch[i]);
+            lay_nodes(branch.front(), branch.back(), line, seeds);
+        }
+    }
+
+    void lay_nodes(std::uint32_t first, std::uint32_t last, const std::vector<Vec3>& line,
+                   const std::vector<std::uint32_t>& seeds) {
+        std::vector<std::uint32_t> chain{first};
+        for (const Vec3& point : even_points(line, needed_pieces(first, last))) {
+            Node node;
+            node.position = point;
+            node.radius = query_.nearest(point).distance;
+            graph_.nodes.push_back(std::move(node));
+            chain.push_back(static_cast<std::uint32_t>(graph_.nodes.size() - 1));
+        }
+        chain.push_back(last);
+        for (std::size_t i = 1; i < chain.size(); ++i) link(graph_, chain[i - 1], chain[i]);
+        for (const std::uint32_t s : seeds) {
+            const Vec3& p = seed_points_[s];
+            const std::uint32_t nearest = *std::min_element(chain.begin(), chain.end(), [&](auto l, auto r) {
+                return glm::distance(graph_.nodes[l].position, p) < glm::distance(graph_.nodes[r].position, p);
+            });
+            graph_.nodes[nearest].seeds.push_back(s);
+        }
+    }
+
+    // A ring needs three nodes and the second of two branches between the same junctions one of its own.
+    int needed_pieces(std::uint32_t first, std::uint32_t last) const {
+        const auto& links = graph_.nodes[first].links;
+        if (first == last) return 3;
+        return std::find(links.begin(), links.end(), last) != links.end() ? 2 : 1;
+    }
+
+    // Points within the line, one local spacing apart. Corners stay where the shortcut past them is not free.
+    std::vector<Vec3> even_points(const std::vector<Vec3>& line, int least_pieces) const {
+        float length = 0.0f;
+        for (std::size_t i = 1; i < line.size(); ++i) length += glm::distance(line[i - 1], line[i]);
+        const float longest = length / static_cast<float>(least_pieces);
+        std::vector<Vec3> points;
+        Vec3 at = line.front();
+        std::size_t next = 1;
+        while (true) {
+            const float spacing = std::min(longest, static_cast<float>(spacing_at(query_.nearest(at).distance)));
+            Vec3 here = at;
+            float left = spacing;
+            std::size_t segment = next;
+            while (segment < line.size() && glm::distance(here, line[segment]) <= left) {
+                left -= glm::distance(here, line[segment]);
+                here = line[segment++];
+            }
+            const bool is_last = segment >= line.size() || (segment + 1 == line.size() &&
+                                 glm::distance(here, line.back()) < left + 0.5f * spacing && points.size() + 1 >= static_cast<std::size_t>(least_pieces));
+            Vec3 target = is_last ? line.back() : here + (line[segment] - here) * (left / glm::distance(here, line[segment]));
+            if (!free_between(at, target) && next < line.size() - (is_last ? 1 : 0) && line[next] != at && segment > next) {
+                target = line[next++];
+                points.push_back(at = target);
+                continue;
+            }
+            if (is_last) return points;
+            next = segment;
+            points.push_back(at = target);
+        }
+    }
+
+    // One pass over all nodes within branches: towards where the force across the branch vanishes, and towards the
+    // middle of the neighbours. A move that would leave the solid is not made.
+    void sweep(double centring) {
+        std::vector<std::uint32_t> moving;
+        std::vector<Vec3> eyes;
+        for (std::uint32_t n = 0; n < graph_.nodes.size(); ++n) {
+            if (graph_.nodes[n].is_removed || graph_.nodes[n].links.size() < 2) continue;
+            moving.push_back(n);
+            eyes.push_back(graph_.nodes[n].position);
+        }
+        std::vector<EyeRecord> records(eyes.size());
+        if (centring > 0.0 && !eyes.empty()) {
+            source_.look(eyes, records);
+            report_.evaluations += eyes.size();
+        }
+        std::vector<Vec3> targets;
+        for (std::size_t i = 0; i < moving.size(); ++i) targets.push_back(target_of(graph_.nodes[moving[i]], records[i], centring));
+        for (std::size_t i = 0; i < moving.size(); ++i) {
+            Node& node = graph_.nodes[moving[i]];
+            const bool stays = std::all_of(node.links.begin(), node.links.end(), [&](std::uint32_t n) {
+                return free_between(graph_.nodes[n].position, targets[i]);
+            });
+            if (stays) node.position = targets[i];
+        }
+    }
+
+    Vec3 target_of(const Node& node, const EyeRecord& met, double centring) const {
+        DVec3 middle(0.0);
+        for (const std::uint32_t n : node.links) middle += DVec3(graph_.nodes[n].position);
+        middle /= static_cast<double>(node.links.size());
+        const DVec3 here(node.position);
+        DVec3 move = (middle - here) * options_.smoothing;
+        if (node.links.size() == 2 && centring > 0.0) {
+            const DVec3 chord(graph_.nodes[node.links[1]].position - graph_.nodes[node.links[0]].position);
+            if (glm::length(chord) > 0.0) move += across_step(met, glm::normalize(chord)) * centring;
+        } else if (node.links.size() > 2) {
+            move *= 0.3;  // a junction is held by its branches; the smoothing alone would drag it to the longest
+        }
+        const double longest = options_.longest_move_spacing * spacing_at(node.radius);
+        const double length = glm::length(move);
+        if (length > longest) move *= longest / length;
+        return node.position + Vec3(move);
+    }
+
+    // The Newton step on the force in the plane across the branch.
+    DVec3 across_step(const EyeRecord& met, const DVec3& tangent) const {
+        const DVec3 helper = std::abs(tangent.x) < 0.8 ? DVec3(1, 0, 0) : DVec3(0, 1, 0);
+        const DVec3 u = glm::normalize(glm::cross(tangent, helper));
+        const DVec3 v = glm::cross(tangent, u);
+        const auto& j = met.jacobian;
+        const auto times = [&](const DVec3& x) {
+            return DVec3(j[0] * x.x + j[3] * x.y + j[4] * x.z, j[3] * x.x + j[1] * x.y + j[5] * x.z,
+                         j[4] * x.x + j[5] * x.y + j[2] * x.z);
+        };
+        const DVec3 ju = times(u);
+        const DVec3 jv = times(v);
+        const double a = glm::dot(u, ju);
+        const double b = glm::dot(u, jv);
+        const double c = glm::dot(v, jv);
+        const double determinant = a * c - b * b;
+        const DVec3 force(met.force);
+        const double fu = glm::dot(force, u);
+        const double fv = glm::dot(force, v);
+        if (!(determinant > 0.01 * (a + c) * (a + c)) || a + c <= 0.0) {
+            const double scale = std::max(a + c, 1e-9);
+            return (u * fu + v * fv) / scale;
+        }
+        return u * ((c * fu - b * fv) / determinant) + v * ((a * fv - b * fu) / determinant);
+    }
+
+    CurveGraph& graph_;
+    std::span<const Vec3> seed_points_;
+    const SurfaceQuery& query_;
+    VisibilitySource& source_;
+    const RefineOptions& options_;
+    RefineReport report_;
+};
+
+}  // namespace
+
+CurveGraph build_graph(const ClusterContext& context, const std::vector<Connection>& connections) {
+    CurveGraph graph;
+    graph.nodes.resize(context.clusters.centers.size());
+    for (std::size_t n = 0; n < graph.nodes.size(); ++n) graph.nodes[n].position = context.clusters.centers[n];
+    for (std::uint32_t s = 0; s < context.clusters.of_point.size(); ++s) {
+        graph.nodes[context.clusters.of_point[s]].seeds.push_back(s);
+    }
+    for (const Connection& c : connections) {
+        std::uint32_t last = c.a;
+        for (std::size_t i = 1; i + 1 < c.path.size(); ++i) {
+            Node node;
+            node.position = c.path[i];
+            graph.nodes.push_back(std::move(node));
+            link(graph, last, static_cast<std::uint32_t>(graph.nodes.size() - 1));
+            last = static_cast<std::uint32_t>(graph.nodes.size() - 1);
+        }
+        link(graph, last, c.b);
+    }
+    for (Node& node : graph.nodes) node.radius = context.query.nearest(node.position).distance;
+    return graph;
+}
+
+RefineReport refine_graph(CurveGraph& graph, std::span<const Vec3> seed_points, const SurfaceQuery& query, VisibilitySource& source,
+                          const RefineOptions& options) {
+    return Refiner(graph, seed_points, query, source, options).run();
+}
+
+}  // namespace zskel

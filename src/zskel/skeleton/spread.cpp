@@ -1,0 +1,102 @@
+#include "zskel/skeleton/spread.h"
+
+#include <algorithm>
+#include <functional>
+#include <queue>
+#include <utility>
+
+#include "zskel/mesh/vertex_graph.h"
+
+namespace zskel {
+namespace {
+
+class Spreader {
+  public:
+    Spreader(const Surface& surface, std::span<const float> thickness)
+        : surface_(surface), thickness_(thickness), graph_(surface.positions.size(), surface.edges),
+          distance_(surface.positions.size(), kInfinity) {
+        out_.seed_of.assign(surface.positions.size(), kNone);
+        out_.parent.assign(surface.positions.size(), kNone);
+    }
+
+    // A front grows from the new seed as far as it is the nearest one.
+    void add(std::uint32_t vertex) {
+        const auto seed = static_cast<std::uint32_t>(out_.vertices.size());
+        out_.vertices.push_back(vertex);
+        using Entry = std::pair<float, std::uint32_t>;
+        std::priority_queue<Entry, std::vector<Entry>, std::greater<>> front;
+        reach(vertex, 0.0f, seed, vertex);
+        front.emplace(0.0f, vertex);
+        while (!front.empty()) {
+            const auto [distance, v] = front.top();
+            front.pop();
+            if (distance > distance_[v] || out_.seed_of[v] != seed) continue;
+            for (const VertexGraph::Link& link : graph_.of(v)) {
+                const float along = distance + length(v, link.vertex);
+                if (along >= distance_[link.vertex]) continue;
+                reach(link.vertex, along, seed, v);
+                front.emplace(along, link.vertex);
+            }
+        }
+    }
+
+    // The vertex that is farthest from every seed; stale entries of the queue are put right as they come up.
+    std::uint32_t farthest() {
+        if (far_.empty()) {
+            for (std::uint32_t v = 0; v < distance_.size(); ++v) far_.emplace(distance_[v], ~v);
+        }
+        while (true) {
+            const auto [distance, inverted] = far_.top();
+            const std::uint32_t v = ~inverted;
+            if (distance == distance_[v]) return v;
+            far_.pop();
+            far_.emplace(distance_[v], inverted);
+        }
+    }
+
+    float distance(std::uint32_t v) const { return distance_[v]; }
+    SeedSpread take() { return std::move(out_); }
+
+  private:
+    void reach(std::uint32_t v, float distance, std::uint32_t seed, std::uint32_t parent) {
+        distance_[v] = distance;
+        out_.seed_of[v] = seed;
+        out_.parent[v] = parent;
+    }
+
+    float length(std::uint32_t a, std::uint32_t b) const {
+        return 2.0f * glm::distance(surface_.positions[a], surface_.positions[b]) / (thickness_[a] + thickness_[b]);
+    }
+
+    const Surface& surface_;
+    std::span<const float> thickness_;
+    VertexGraph graph_;
+    std::vector<float> distance_;
+    std::priority_queue<std::pair<float, std::uint32_t>> far_;  // ties: the lowest vertex
+    SeedSpread out_;
+};
+
+}  // namespace
+
+SeedSpread spread_seeds(const Surface& surface, std::span<const float> thickness, const SpreadOptions& options) {
+    Spreader spreader(surface, thickness);
+    const std::size_t vertices = surface.positions.size();
+    const std::size_t most =
+        options.max_seeds <= 0 ? vertices : std::min(vertices, static_cast<std::size_t>(options.max_seeds));
+    std::uint32_t next = 0;
+    std::size_t count = 0;
+    // Parts that no front has reached come first, whatever the limit: their distance is infinite.
+    for (; count < vertices; ++count) {
+        const float left = spreader.distance(next);
+        if (left == 0.0f) break;
+        const bool enough = count >= most || static_cast<double>(left) <= options.spacing_thickness;
+        if (enough && left < kInfinity) break;
+        spreader.add(next);
+        next = spreader.farthest();
+    }
+    SeedSpread spread = spreader.take();
+    spread.spacing_thickness = static_cast<double>(spreader.distance(next));
+    return spread;
+}
+
+}  // namespace zskel
