@@ -100,18 +100,24 @@ class Refiner {
   private:
     bool free_between(const Vec3& a, const Vec3& b) const { return !query_.first_hit(a, b); }
 
-    // How far the branch's surface reaches beyond the rest of the skeleton, in the rest's own radii; 1 at the
-    // inscribed balls.
-    double reach_of(const std::vector<std::uint32_t>& path) const {
+    // The least of what a limb has to have, each over its bound; below 1 the branch is a spur: its surface reaches
+    // beyond the rest of the skeleton's inscribed balls, its nodes lie outside them, and it has some length.
+    double limb_measure(const std::vector<std::uint32_t>& path) const {
         std::vector<bool> in_branch(graph_.nodes.size(), false);
         for (std::size_t i = 1; i < path.size(); ++i) in_branch[path[i]] = true;
-        double reach = 0.0;
+        double surface_reach = 0.0;
+        double node_reach = 0.0;
         for (std::size_t i = 1; i < path.size(); ++i) {
-            for (const std::uint32_t s : graph_.nodes[path[i]].seeds) {
-                reach = std::max(reach, distance_in_radii(seed_points_[s], in_branch));
+            const Node& node = graph_.nodes[path[i]];
+            node_reach = std::max(node_reach, distance_in_radii(node.position, in_branch));
+            for (const std::uint32_t s : node.seeds) {
+                surface_reach = std::max(surface_reach, distance_in_radii(seed_points_[s], in_branch));
             }
         }
-        return reach;
+        const double length = static_cast<double>(length_of(graph_, path) / std::max(graph_.nodes[path.front()].radius, 1e-9f));
+        const double least = std::min({surface_reach / options_.least_reach_radii, node_reach / options_.least_node_radii,
+                                       length / options_.least_length_radii});
+        return least / options_.detail;
     }
 
     double distance_in_radii(const Vec3& point, const std::vector<bool>& left_out) const {
@@ -122,13 +128,6 @@ class Refiner {
             least = std::min(least, static_cast<double>(glm::distance(point, node.position) / std::max(node.radius, 1e-9f)));
         }
         return least;
-    }
-
-    // The least of reach and length, each over what a limb has to have; below 1 it is a spur.
-    double limb_measure(const std::vector<std::uint32_t>& path) const {
-        const double radius = options_.detail * static_cast<double>(std::max(graph_.nodes[path.front()].radius, 1e-9f));
-        return std::min(reach_of(path) / (options_.least_reach_radii * options_.detail),
-                        static_cast<double>(length_of(graph_, path)) / (options_.least_length_radii * radius));
     }
 
     // Spurs go, the least first, since what is left may join to a longer limb.

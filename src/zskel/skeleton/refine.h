@@ -24,6 +24,7 @@ struct RefineOptions {
     double detail = 1.0;                ///< scales what counts as a limb: below 1 more spurs stay, above 1 fewer
     double least_reach_radii = 1.8;     ///< a branch goes when the rest of the skeleton is nearer to all of its surface
                                         ///< than this many of its own radii
+    double least_node_radii = 1.0;      ///< or all of its nodes lie within this many
     double least_length_radii = 0.8;    ///< and one shorter than this many
     double merge_radii = 0.5;           ///< junctions nearer than this become one
     double tip_gap_radii = 0.5;         ///< ends are extended to this distance from the tip
