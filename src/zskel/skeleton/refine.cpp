@@ -100,32 +100,34 @@ class Refiner {
   private:
     bool free_between(const Vec3& a, const Vec3& b) const { return !query_.first_hit(a, b); }
 
-    // The least of what a limb has to have, each over its bound; below 1 the branch is a spur: its surface reaches
-    // beyond the rest of the skeleton's inscribed balls, its nodes lie outside them, and it has some length.
+    // The least of what a limb has to have, each over its bound; below 1 the branch is a spur: its surface sticks
+    // out of the inscribed balls of the rest of the skeleton, by its own thickness and by some share of the
+    // junction's, and it has some length.
     double limb_measure(const std::vector<std::uint32_t>& path) const {
         std::vector<bool> in_branch(graph_.nodes.size(), false);
         for (std::size_t i = 1; i < path.size(); ++i) in_branch[path[i]] = true;
-        double surface_reach = 0.0;
-        double node_reach = 0.0;
+        const double junction_radius = static_cast<double>(std::max(graph_.nodes[path.front()].radius, 1e-9f));
+        double sticks_out = 0.0;
         for (std::size_t i = 1; i < path.size(); ++i) {
             const Node& node = graph_.nodes[path[i]];
-            node_reach = std::max(node_reach, distance_in_radii(node.position, in_branch));
             for (const std::uint32_t s : node.seeds) {
-                surface_reach = std::max(surface_reach, distance_in_radii(seed_points_[s], in_branch));
+                const double beyond = distance_beyond(seed_points_[s], in_branch);
+                const double own = static_cast<double>(std::max(node.radius, 1e-9f));
+                sticks_out = std::max(sticks_out, std::min(beyond / (options_.least_own_radii * own),
+                                                           beyond / (options_.least_junction_radii * junction_radius)));
             }
         }
-        const double length = static_cast<double>(length_of(graph_, path) / std::max(graph_.nodes[path.front()].radius, 1e-9f));
-        const double least = std::min({surface_reach / options_.least_reach_radii, node_reach / options_.least_node_radii,
-                                       length / options_.least_length_radii});
-        return least / options_.detail;
+        const double length = static_cast<double>(length_of(graph_, path)) / junction_radius;
+        return std::min(sticks_out, length / options_.least_length_radii) / options_.detail;
     }
 
-    double distance_in_radii(const Vec3& point, const std::vector<bool>& left_out) const {
+    // From a point to the nearest inscribed ball of the rest.
+    double distance_beyond(const Vec3& point, const std::vector<bool>& left_out) const {
         double least = 1e9;
         for (std::uint32_t n = 0; n < graph_.nodes.size(); ++n) {
             const Node& node = graph_.nodes[n];
             if (node.is_removed || left_out[n]) continue;
-            least = std::min(least, static_cast<double>(glm::distance(point, node.position) / std::max(node.radius, 1e-9f)));
+            least = std::min(least, static_cast<double>(glm::distance(point, node.position) - node.radius));
         }
         return least;
     }

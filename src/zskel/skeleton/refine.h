@@ -22,10 +22,10 @@ struct CurveGraph {
 
 struct RefineOptions {
     double detail = 1.0;                ///< scales what counts as a limb: below 1 more spurs stay, above 1 fewer
-    double least_reach_radii = 1.8;     ///< a branch goes when the rest of the skeleton is nearer to all of its surface
-                                        ///< than this many of its own radii
-    double least_node_radii = 1.0;      ///< or all of its nodes lie within this many
-    double least_length_radii = 0.8;    ///< and one shorter than this many
+    double least_own_radii = 1.5;       ///< a branch goes when its surface sticks out of the rest's inscribed
+                                        ///< balls by less than this many of its own radii,
+    double least_junction_radii = 0.35; ///< or of its junction's,
+    double least_length_radii = 0.8;    ///< or is shorter than this many of its junction's
     double merge_radii = 0.5;           ///< junctions nearer than this become one
     double tip_gap_radii = 0.5;         ///< ends are extended to this distance from the tip
     double min_spacing_world = 0.004;   ///< of nodes; between these bounds it is the radius
