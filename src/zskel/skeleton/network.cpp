@@ -80,25 +80,94 @@ class Network {
         return out;
     }
 
-    // The class of the way from its patch's root to every vertex, within the patch.
+    // The class of the way to every vertex from the first seed of its cluster: from seed to seed where their patches
+    // meet or a shortcut joins them, then within the patch.
     void walk_patches() {
         if (genus_ == 0) return;
-        from_root_.assign(graph_.size(), {});
-        for (std::uint32_t root = 0; root < graph_.size(); ++root) {
-            if (!from_root_[root].empty()) continue;
-            from_root_[root].assign(genus_, 0);
+        walk_cells();
+        const std::map<std::pair<std::uint32_t, std::uint32_t>, Class> seed_links = classify_links();
+        const auto link_class = [&](std::uint32_t a, std::uint32_t b) {
+            Class cls(genus_, 0);
+            add_to(cls, seed_links.at(std::minmax(a, b)), a < b ? 1 : -1);
+            return cls;
+        };
+        struct Way {
+            std::uint32_t seed;
+            Class cls;
+        };
+        const std::size_t seeds = context_.spread.vertices.size();
+        std::vector<std::vector<Way>> ways(seeds);
+        const auto add_way = [&](std::uint32_t a, std::uint32_t b, const Class& cls) {
+            if (context_.clusters.of_point[a] != context_.clusters.of_point[b]) return;
+            Class back(genus_, 0);
+            add_to(back, cls, -1);
+            ways[a].push_back({b, cls});
+            ways[b].push_back({a, std::move(back)});
+        };
+        for (const glm::uvec2& link : context_.links) add_way(link.x, link.y, link_class(link.x, link.y));
+        for (const Shortcut& shortcut : context_.shortcuts) {
+            Class cls(genus_, 0);
+            for (std::size_t i = 1; i < shortcut.walk.size(); ++i) {
+                add_to(cls, link_class(shortcut.walk[i - 1], shortcut.walk[i]), 1);
+            }
+            add_way(shortcut.walk.front(), shortcut.walk.back(), cls);
+        }
+        std::vector<Class> to_seed(seeds);
+        for (std::uint32_t root = 0; root < seeds; ++root) {
+            if (!to_seed[root].empty()) continue;
+            to_seed[root].assign(genus_, 0);
             std::vector<std::uint32_t> queue{root};
             for (std::size_t i = 0; i < queue.size(); ++i) {
-                const std::uint32_t v = queue[i];
-                for (const VertexGraph::Link& link : graph_.of(v)) {
-                    if (!from_root_[link.vertex].empty() || cluster_of(link.vertex) != cluster_of(v)) continue;
-                    Class cls = from_root_[v];
-                    add_to(cls, class_of(link.edge, v < link.vertex), 1);
-                    from_root_[link.vertex] = std::move(cls);
-                    queue.push_back(link.vertex);
+                for (const Way& way : ways[queue[i]]) {
+                    if (!to_seed[way.seed].empty()) continue;
+                    to_seed[way.seed] = to_seed[queue[i]];
+                    add_to(to_seed[way.seed], way.cls, 1);
+                    queue.push_back(way.seed);
                 }
             }
         }
+        for (std::uint32_t v = 0; v < graph_.size(); ++v) add_to(from_root_[v], to_seed[context_.spread.seed_of[v]], 1);
+    }
+
+    // The class of the way from its seed's vertex to every vertex, along the parents.
+    void walk_cells() {
+        from_root_.assign(graph_.size(), {});
+        for (std::uint32_t v = 0; v < graph_.size(); ++v) {
+            std::vector<std::uint32_t> way;
+            std::uint32_t at = v;
+            for (; from_root_[at].empty() && context_.spread.parent[at] != at; at = context_.spread.parent[at]) {
+                way.push_back(at);
+            }
+            if (from_root_[at].empty()) from_root_[at].assign(genus_, 0);
+            for (auto next = way.rbegin(); next != way.rend(); ++next) {
+                from_root_[*next] = from_root_[at];
+                add_to(from_root_[*next], class_between(at, *next), 1);
+                at = *next;
+            }
+        }
+    }
+
+    Class class_between(std::uint32_t v, std::uint32_t w) const {
+        for (const VertexGraph::Link& link : graph_.of(v)) {
+            if (link.vertex == w) return class_of(link.edge, v < w);
+        }
+        return Class(genus_, 0);
+    }
+
+    // Of every two seeds whose patches meet, lower first: the class of the way between their vertices.
+    std::map<std::pair<std::uint32_t, std::uint32_t>, Class> classify_links() const {
+        std::map<std::pair<std::uint32_t, std::uint32_t>, Class> out;
+        for (std::uint32_t e = 0; e < context_.surface.edges.size(); ++e) {
+            std::uint32_t v = context_.surface.edges[e].x;
+            std::uint32_t w = context_.surface.edges[e].y;
+            if (context_.spread.seed_of[v] == context_.spread.seed_of[w]) continue;
+            if (context_.spread.seed_of[v] > context_.spread.seed_of[w]) std::swap(v, w);
+            const auto [at, is_new] = out.try_emplace({context_.spread.seed_of[v], context_.spread.seed_of[w]}, from_root_[v]);
+            if (!is_new) continue;
+            add_to(at->second, class_between(v, w), 1);
+            add_to(at->second, from_root_[w], -1);
+        }
+        return out;
     }
 
     // One candidate for each pair of clusters and class.

@@ -8,6 +8,7 @@
 #include "zskel/mesh/homology.h"
 #include "zskel/skeleton/cluster.h"
 #include "zskel/skeleton/settle.h"
+#include "zskel/skeleton/shortcuts.h"
 #include "zskel/skeleton/spread.h"
 #include "zskel/visibility/surface_query.h"
 
@@ -31,6 +32,8 @@ struct ClusterContext {
     const SeedSpread& spread;
     std::span<const SettledSeed> settled;       ///< with paths
     std::span<const Vec3> inner;                ///< a point inside near every vertex
+    std::span<const glm::uvec2> links;          ///< pairs of seeds whose patches meet
+    std::span<const Shortcut> shortcuts;
     const Clusters& clusters;                   ///< of seeds; centres are end points of seeds
 };
 

@@ -84,16 +84,21 @@ SolidSkeleton extract_by_newton(const Surface& surface, bool is_closed, Visibili
 
     progress.begin("connect");
     const std::vector<glm::uvec2> links = seed_links(surface, spread);
+    std::vector<float> radii;
     std::vector<float> ranges;
     for (const Vec3& end : ends) {
-        const double wanted = options.cluster_radii * static_cast<double>(query.nearest(end).distance);
+        radii.push_back(query.nearest(end).distance);
+        const double wanted = options.cluster_radii * static_cast<double>(radii.back());
         ranges.push_back(static_cast<float>(std::clamp(wanted, options.min_cluster_world, options.max_cluster_world)));
     }
+    const std::vector<Shortcut> shortcuts = find_shortcuts(ends, links, radii, ranges);
+    std::vector<glm::uvec2> joints = links;
+    for (const Shortcut& s : shortcuts) joints.emplace_back(s.walk.front(), s.walk.back());
     CurveGraph graph;
     for (int attempt = 0;; ++attempt) {
-        Clusters clusters = cluster_minima(ends, links, ranges);
+        Clusters clusters = cluster_minima(ends, joints, ranges);
         center_on_members(clusters, ends);
-        const ClusterContext context{surface, query, spread, out.settled, inner, clusters};
+        const ClusterContext context{surface, query, spread, out.settled, inner, links, shortcuts, clusters};
         bool enough = false;
         const std::vector<Connection> connections = connect_network(context, handles, enough);
         if (!enough && attempt < options.max_retries) {

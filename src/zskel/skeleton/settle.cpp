@@ -1,6 +1,7 @@
 #include "zskel/skeleton/settle.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace zskel {
 namespace {
@@ -54,6 +55,8 @@ class PaperWalk {
         if (met.hit_fraction == 0.0f) return rest(seed, SeedState::NoHits);
         if (met.back_fraction < kLeastBackFraction) return rest(seed, SeedState::LeftMesh);
         const float strength = glm::length(met.force);
+        // On the surface itself there is no direction to go.
+        if (!std::isfinite(strength)) return rest(seed, SeedState::LeftMesh);
         if (walker.started) {
             if (strength > glm::length(walker.force)) return rest(seed, SeedState::Converged);
             ++seed.steps;
