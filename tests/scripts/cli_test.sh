@@ -1,0 +1,508 @@
+#!/usr/bin/env bash
+# cli_test.sh PROGRAM MODELS_DIR CASE...: the program as its users meet it. `cli_test.sh --list` names the cases.
+# A case that a missing tool keeps from running says so and exits with 77.
+set -uo pipefail
+
+failures=0
+say() { printf '%s\n' "$*"; }
+fail() {
+    failures=$((failures + 1))
+    say "FAILED [$label] $*"
+    [[ -s err ]] && sed 's/^/    err: /' err
+}
+
+# run EXPECTED_CODE ARGUMENTS...: the program's output lands in `out` and `err`.
+label=
+run() {
+    local expected=$1 code=0
+    shift
+    label="zskel $*"
+    "$zskel" "$@" >out 2>err </dev/null || code=$?
+    ((code == expected)) || fail "exit code $code, not $expected"
+}
+# refused EXPECTED_CODE PIECE ARGUMENTS...: nothing on standard output, one line on standard error with PIECE in it.
+refused() {
+    local expected=$1 piece=$2
+    shift 2
+    run "$expected" "$@"
+    [[ ! -s out ]] || fail "something on standard output"
+    (($(wc -l <err) == 1)) || fail "standard error is not one line"
+    grep -qF -- "$piece" err || fail "the message lacks: $piece"
+}
+is_json() { /usr/bin/python3 -c 'import json, sys; json.load(open(sys.argv[1]))' "$1"; }
+# No file but those named is in the folder.
+only_files() {
+    local found
+    found=$(cd "$1" && find . -mindepth 1 -printf '%P\n' | sort | tr '\n' ' ')
+    shift
+    [[ $found == "$(printf '%s\n' "$@" | sort | tr '\n' ' ')" || ($# == 0 && -z $found) ]] ||
+        fail "files are there: $found"
+}
+
+fast=(--method paper --backend ray --face-px 4 --step 0.02)
+
+case_usage() {
+    refused 2 'subcommand'
+    refused 2 '--bogus' --bogus
+    refused 2 'frobnicate' frobnicate
+    refused 2 '--bogus' extract cube.obj --bogus
+    refused 2 'superfluous' check cube.obj superfluous
+    refused 2 'model' extract
+    refused 2 'model' check
+    refused 2 'nosuch' extract cube.obj --method nosuch
+    refused 2 'nosuch' extract cube.obj --backend nosuch
+    refused 2 'nosuch' compare cube.obj --against nosuch
+    refused 2 'nosuch' extract cube.obj --view nosuch
+    refused 2 'nosuch' extract cube.obj --format nosuch
+    refused 2 'nosuch' --log-format nosuch check cube.obj
+    refused 2 '--step' extract cube.obj --step
+    local value
+    for value in 0 -1 nan inf x ''; do refused 2 '--step' extract cube.obj --step="$value"; done
+    refused 2 '--cluster' extract cube.obj --cluster -1
+    refused 2 '--offset' extract cube.obj --offset nan
+    refused 2 '--max-steps' extract cube.obj --max-steps 0
+    refused 2 '--threads' --threads -1 check cube.obj
+    refused 2 '--rays' extract cube.obj --backend ray --rays -3
+    refused 2 '--rays' extract cube.obj --backend gl --rays 197
+    refused 2 '--gpu' extract cube.obj --backend ray --gpu 0
+    refused 2 '--gpu' extract cube.obj --gpu -1
+    refused 2 '3' extract cube.obj --backend ray --face-px 3
+    refused 2 '1025' extract cube.obj --backend ray --face-px 1025
+    refused 2 '--output' extract cube.obj "${fast[@]}" -o ''
+    refused 2 'cube.obj' extract cube.obj "${fast[@]}" -o ./cube.obj
+    ln -s cube.obj link.obj
+    refused 2 'link.obj' extract cube.obj "${fast[@]}" -o link.obj
+    refused 2 'a.png' extract cube.obj "${fast[@]}" -o a.png --picture ./a.png
+    only_files . cube.obj link.obj out err
+}
+
+case_help() {
+    local command
+    run 0 --version
+    grep -qE '^zskel [0-9]+\.[0-9]+\.[0-9]+$' out || fail "no version in: $(cat out)"
+    run 0 --help
+    grep -qF 'Exit codes:' out || fail "the exit codes are not listed"
+    local commands
+    commands=$(sed -n '/^Subcommands:/,/^$/s/^  \([a-z]\+\) .*/\1/p' out)
+    for command in extract check compare doctor; do
+        grep -qx "$command" <<<"$commands" || fail "no subcommand $command"
+    done
+    for command in $commands; do
+        run 0 "$command" --help
+        [[ $(head -n 1 out) == [A-Z]*' '* ]] || fail "no description"
+        grep -qF "Usage: zskel $command" out || fail "no usage line"
+        grep -qF 'Example' out || fail "no example"
+        [[ ! -s err ]] || fail "something on standard error"
+    done
+}
+
+case_bad_input() {
+    local command piece
+    printf 'v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 7\n' >bad.obj
+    printf 'OFF\n3 1 0\n0 0 0\n1 0 zero\n0 1 0\n3 0 1 2\n' >bad.off
+    printf 'ply\nformat ascii 1.0\nelement vertex 3\nproperty flat x\nend_header\n' >bad.ply
+    printf 'solid a\nfacet normal 0 0 1\nouter lap\n' >bad.stl
+    { printf '%80s' '' && printf '\3\0\0\0' && printf '%60s' ''; } >cut.stl
+    : >empty.obj
+    mkdir folder.obj
+    while read -r name piece; do
+        for command in 'check' 'check --json' "extract ${fast[*]} -o kept.json" 'compare --backend ray'; do
+            echo old >kept.json
+            # shellcheck disable=SC2086
+            refused 3 "$piece" $command "$name"
+            grep -qF "$name:" err || fail "the message does not name the file"
+            [[ $(cat kept.json) == old ]] || fail "the output that was there is gone"
+        done
+    done <<'END'
+none.obj No such file
+folder.obj folder.obj
+empty.obj empty
+bad.obj :4:
+bad.obj 7
+bad.off :4:
+bad.off zero
+bad.ply :4:
+bad.ply flat
+bad.stl :3:
+bad.stl lap
+cut.stl byte
+END
+    refused 3 'nothing.obj' check $'line\nbreak\tnothing.obj'
+    only_files . cube.obj bad.obj bad.off bad.ply bad.stl cut.stl empty.obj folder.obj kept.json out err
+}
+
+case_streams() {
+    printf 'OFF\n4 4 0\n0 0 0\n1 0 0\n0 1 0\n0 0 1\n3 0 2 1\n3 0 1 3\n3 0 3 2\n3 1 2 3\n' >t.off
+    printf 'v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 1 4 3\nf 2 3 4\n' >t.obj
+    {
+        printf 'ply\nformat ascii 1.0\nelement vertex 4\nproperty float x\nproperty float y\nproperty float z\n'
+        printf 'element face 4\nproperty list uchar int vertex_indices\nend_header\n'
+        printf '0 0 0\n1 0 0\n0 1 0\n0 0 1\n3 0 2 1\n3 0 1 3\n3 0 3 2\n3 1 2 3\n'
+    } >t.ply
+    /usr/bin/python3 - <<'END'
+import struct
+corners = [(0, 0, 0), (1, 0, 0), (0, 1, 0), (0, 0, 1)]
+faces = [(0, 2, 1), (0, 1, 3), (0, 3, 2), (1, 2, 3)]
+with open("t.stl", "wb") as file:
+    file.write(b" " * 80 + struct.pack("<I", 4))
+    for face in faces:
+        file.write(struct.pack("<12fH", 0, 0, 0, *(x for i in face for x in corners[i]), 0))
+END
+    local kind
+    for kind in obj off ply stl; do
+        label="zskel extract - <t.$kind"
+        "$zskel" extract - "${fast[@]}" -o - <"t.$kind" >out 2>err || fail "exit code $?"
+        is_json out || fail "no JSON"
+        cat "t.$kind" | "$zskel" extract - "${fast[@]}" >piped 2>err || fail "exit code $? from a pipe"
+        "$zskel" check - --json <"t.$kind" >report 2>err || fail "check: exit code $?"
+        /usr/bin/python3 - <<'END' || fail "not the tetrahedron"
+import json
+skeleton, report = json.load(open("out")), json.load(open("report"))
+assert skeleton["provenance"]["model"] == "-" and report["name"] == "-"
+assert len(skeleton["vertex_node"]) == report["vertices"] == 4 and report["triangles"] == 4
+assert skeleton["provenance"]["model_xxh3"] == report["hash"]
+assert json.load(open("piped"))["nodes"] == skeleton["nodes"]
+END
+    done
+    label='standard input that is empty, closed or no model'
+    local code
+    code=0; "$zskel" check - </dev/null >out 2>err || code=$?
+    ((code == 3)) || fail "empty: exit code $code"
+    code=0; "$zskel" check - <&- >out 2>err || code=$?
+    ((code == 3)) || fail "closed: exit code $code"
+    code=0; echo hello | "$zskel" check - >out 2>err || code=$?
+    ((code == 3)) || fail "no model: exit code $code"
+}
+
+# cannot_write CODE_OF_LAST_COMMAND
+cannot_write() {
+    (($1 == 5)) || fail "exit code $1, not 5"
+    (($(wc -l <err) == 1)) || fail "standard error is not one line"
+}
+
+case_cannot_write() {
+    refused 5 'none/a.json' extract cube.obj "${fast[@]}" -o none/a.json
+    refused 5 '.' extract cube.obj "${fast[@]}" -o .
+    refused 5 '/dev/full' extract cube.obj "${fast[@]}" -o /dev/full
+    [[ -c /dev/full ]] || fail "the device was replaced"
+    refused 5 'none/a.png' extract cube.obj "${fast[@]}" --picture none/a.png
+    local arguments code
+    for arguments in "extract cube.obj ${fast[*]}" 'check cube.obj' 'check cube.obj --json' 'doctor' '--help' '--version'; do
+        label="zskel $arguments >/dev/full"
+        # shellcheck disable=SC2086
+        "$zskel" $arguments >/dev/full 2>err
+        cannot_write $?
+        label="zskel $arguments >&-"
+        # shellcheck disable=SC2086
+        "$zskel" $arguments >&- 2>err
+        cannot_write $?
+    done
+    label='a pipe that nobody reads'
+    { sleep 0.2; "$zskel" check cube.obj 2>err; echo $? >code; } | :
+    cannot_write "$(cat code)"
+    mkdir readonly && echo old >readonly/a.json && chmod 500 readonly
+    if [[ -w readonly ]]; then
+        say "a folder without permission to write: left out, this user may write anywhere"
+    else
+        refused 5 'readonly/a.json' extract cube.obj "${fast[@]}" -o readonly/a.json
+        [[ $(cat readonly/a.json) == old ]] || fail "the output that was there is gone"
+    fi
+    chmod 700 readonly
+    only_files readonly a.json
+    label='a file size limit'
+    (
+        ulimit -f 1
+        trap '' XFSZ
+        "$zskel" extract cube.obj "${fast[@]}" --with-paths -o readonly/a.json 2>err
+    )
+    cannot_write $?
+    only_files readonly a.json
+    [[ $(cat readonly/a.json) == old ]] || fail "the output that was there is gone"
+    mkfifo pipe && (cat pipe >read) &
+    run 0 extract cube.obj "${fast[@]}" -o pipe
+    wait
+    is_json read || fail "a named pipe does not get the whole of it"
+    [[ -p pipe ]] || fail "the pipe was replaced"
+}
+
+case_signals() {
+    # Small steps on a model of some size: minutes of work, were it not stopped.
+    local slow=(--method paper --backend ray --face-px 16 --step 0.00001 --max-steps 100000) signal number code pid
+    mkdir work
+    for signal in INT:2 TERM:15 HUP:1; do
+        number=${signal#*:} signal=${signal%:*}
+        label="kill -$signal in the middle of work"
+        echo old >work/kept.json
+        # Not from the shell itself: what it puts in the background ignores SIGINT.
+        /usr/bin/python3 -c '
+import os, signal, sys
+for s in (signal.SIGINT, signal.SIGHUP): signal.signal(s, signal.SIG_DFL)
+os.execv(sys.argv[1], sys.argv[1:])' "$zskel" extract cube.obj "${slow[@]}" -o work/kept.json >out 2>err &
+        pid=$!
+        sleep 0.4
+        kill -"$signal" "$pid"
+        code=0
+        wait "$pid" || code=$?
+        ((code == 128 + number)) || fail "exit code $code"
+        only_files work kept.json
+        [[ $(cat work/kept.json) == old ]] || fail "the output that was there is gone"
+        [[ ! -s out ]] || fail "something on standard output"
+    done
+
+    # A reader that takes nothing holds the write up in the middle.
+    label='kill -TERM in the middle of writing to a pipe'
+    mkfifo work/pipe
+    sleep 20 <work/pipe &
+    local reader=$!
+    "$zskel" extract cube.obj --method paper --backend ray --face-px 4 --step 0.002 --with-paths -o work/pipe >out 2>err &
+    pid=$!
+    sleep 2
+    kill -TERM "$pid" || fail "it was already over"
+    code=0
+    wait "$pid" || code=$?
+    kill "$reader"
+    wait "$reader" 2>/dev/null
+    ((code == 143)) || fail "exit code $code"
+    only_files work kept.json pipe
+
+    # Stopped at moments all over a whole run: a file is there whole, or it is not.
+    label='kill -TERM at any moment'
+    local i
+    for i in $(seq 1 25); do
+        rm -f work/a.json
+        "$zskel" extract cube.obj "${fast[@]}" --with-paths -o work/a.json >out 2>err &
+        pid=$!
+        sleep "$(printf '0.%03d' $((i * 8)))"
+        kill -TERM "$pid" 2>/dev/null
+        wait "$pid"
+        [[ ! -e work/a.json ]] || is_json work/a.json || fail "half a file"
+        only_files work kept.json pipe $([[ -e work/a.json ]] && echo a.json)
+    done
+}
+
+json_lines() {
+    /usr/bin/python3 - "$@" <<'END' || fail "not one JSON object a line"
+import json, sys
+lines = open("err", encoding="utf-8").read().splitlines()
+assert len(lines) >= int(sys.argv[1]), lines
+for line in lines:
+    entry = json.loads(line)
+    assert {"time", "level", "message"} <= entry.keys(), entry
+    assert entry["level"] in ("debug", "info", "warning", "error"), entry
+END
+}
+
+case_log() {
+    head -n 900 "$models/cube.obj" | grep '^v' >open.obj
+    grep '^f' "$models/cube.obj" | tail -n +3 >>open.obj
+    run 0 extract open.obj "${fast[@]}" -o a.json
+    grep -q '^zskel: warning: open.obj: ' err || fail "an open model without a warning"
+    run 0 -q extract open.obj "${fast[@]}" -o a.json
+    [[ ! -s err ]] || fail "-q is not quiet"
+    run 0 extract open.obj "${fast[@]}" -o a.json --quiet
+    [[ ! -s err ]] || fail "--quiet after the subcommand is not quiet"
+    run 3 -q check none.obj
+    [[ -s err ]] || fail "-q hides errors"
+    run 0 -v extract cube.obj "${fast[@]}" -o a.json
+    grep -q '^zskel: info: ' err || fail "-v says nothing"
+    ! grep -q $'\r' err || fail "a progress bar in a file"
+    local odd=$'quote" back\\slash\nline\t\xff.obj'
+    cp open.obj "$odd"
+    run 0 --log-format json -vv extract "$odd" "${fast[@]}" -o a.json
+    json_lines 2
+    is_json a.json || fail "no JSON with an odd file name"
+    run 0 check --json "$odd"
+    is_json out || fail "no JSON with an odd file name"
+    run 0 extract "$odd" "${fast[@]}" -o a.json
+    ! grep -qv '^zskel: ' err || fail "a line that is not ours"
+    run 3 --log-format json check $'no "such"\nfile.obj'
+    json_lines 1
+    run 2 --log-format json extract --bogus
+    json_lines 1
+    run 2 extract cube.obj --backend nosuch --log-format=json
+    json_lines 1
+    run 5 --log-format json extract cube.obj "${fast[@]}" -o none/a.json
+    json_lines 1
+}
+
+case_terminal() {
+    command -v script >/dev/null || {
+        say "skipped: script (of bsdutils) is not installed"
+        exit 77
+    }
+    local line
+    printf -v line '%q ' "$zskel" extract cube.obj "${fast[@]}" -o a.json
+    label="$line on a terminal"
+    script -qec "$line" /dev/null >typescript </dev/null || fail "exit code $?"
+    grep -q 'settle' typescript || fail "no progress bar"
+    is_json a.json || fail "no JSON"
+    printf -v line '%q ' "$zskel" -q extract cube.obj "${fast[@]}" -o a.json
+    script -qec "$line" /dev/null >typescript </dev/null || fail "exit code $?"
+    [[ ! -s typescript ]] || fail "-q draws a progress bar"
+    printf -v line '%q ' "$zskel" --log-format json extract cube.obj "${fast[@]}" -o a.json
+    script -qec "$line" /dev/null >typescript </dev/null || fail "exit code $?"
+    [[ ! -s typescript ]] || fail "a progress bar between lines of JSON"
+}
+
+case_output() {
+    # Moved and scaled: positions must come back in the file's coordinates. The last vertex has no face.
+    awk '$1 == "v" { printf "v %.6f %.6f %.6f\n", $2 * 10 + 100, $3 * 10 - 50, $4 * 10; next } { print }' \
+        "$models/capsule.obj" >moved.obj
+    echo 'v 101 -51 0' >>moved.obj
+    run 0 extract moved.obj "${fast[@]}" -o a.json --with-paths
+    cp a.json first.json
+    run 0 extract moved.obj "${fast[@]}" -o a.json --with-paths
+    cp a.json second.json
+    run 0 --threads 1 extract moved.obj "${fast[@]}" -o one.json --with-paths
+    run 0 extract moved.obj "${fast[@]}" -o a.obj
+    run 0 extract moved.obj "${fast[@]}" --format obj
+    cmp -s out a.obj || fail "--format obj differs from a name in .obj"
+    run 0 extract moved.obj "${fast[@]}" --format json -o named.obj
+    is_json named.obj || fail "--format json does not rule over the name"
+    run 0 check --json moved.obj
+    label='the JSON of extract'
+    /usr/bin/python3 - <<'END' || fail "not as promised"
+import json, re
+first, second, one = (open(f + ".json").read() for f in ("first", "second", "one"))
+untimed = lambda text: re.sub(r'"seconds": \{[^}]*\}', "", text)
+assert first != untimed(first)
+assert untimed(first) == untimed(second), "the same command twice gives different bytes"
+s, single, report = json.loads(first), json.loads(one), json.load(open("out"))
+for key in ("nodes", "edges", "vertex_node", "seeds"):
+    assert s[key] == single[key], f"{key} depend on the number of threads"
+assert (s["format"], s["version"]) == ("zskel-skeleton", 1)
+vertices = [tuple(map(float, l.split()[1:])) for l in open("moved.obj") if l.startswith("v ")]
+low, high = (tuple(f(v[i] for v in vertices) for i in range(3)) for f in (min, max))
+nodes = s["nodes"]
+assert nodes
+for i, node in enumerate(nodes):
+    assert node["id"] == i and node["radius"] > 0 and node["solid"] == 0
+    assert all(l < x < h for l, x, h in zip(low, node["position"], high)), node
+assert all(e["source"] < len(nodes) and e["target"] < len(nodes) and e["source"] != e["target"] for e in s["edges"])
+of_vertex = s["vertex_node"]
+assert len(of_vertex) == len(vertices) == report["vertices"]
+assert of_vertex[-1] == -1 and all(0 <= n < len(nodes) for n in of_vertex[:-1])
+assert set(of_vertex[:-1]) == set(range(len(nodes))), "a node that no vertex belongs to"
+t = s["statistics"]
+assert (t["nodes"], t["edges"], t["components"], t["cycles"]) == (len(nodes), len(s["edges"]), 1, 0), t
+assert t["vertices"] == len(vertices) - 1 and t["seeds"] == len(s["seeds"]) and t["solids"] == 1
+assert sum(t["seed_states"].values()) == t["seeds"] and t["evaluations"] >= t["seeds"]
+assert t["seconds"]["total"] > 0
+assert isinstance(s["warnings"], list)
+p = s["provenance"]
+assert p["program"] == "zskel" and re.fullmatch(r"\d+\.\d+\.\d+", p["program_version"])
+assert p["command"].startswith("zskel extract moved.obj") and p["model"] == "moved.obj"
+assert p["model_xxh3"] == report["hash"] and re.fullmatch("[0-9a-f]{16}", p["model_xxh3"])
+o = p["options"]
+assert (o["method"], o["backend"], o["face_px"]) == ("paper", "ray", 4), o
+assert o["step_world"] == 0.02, o
+b = p["backend"]
+assert b["name"] == "ray" and b["vendor"] and b["renderer"] and b["version"] and b["failed"] == []
+assert b["is_fallback"] is False
+assert p["world_from_model"]["scale"] > 0 and len(p["world_from_model"]["center"]) == 3
+for seed in s["seeds"]:
+    assert seed["path"][0] == seed["start"] and seed["path"][-1] == seed["end"]
+    assert of_vertex[seed["vertex"]] == seed["node"]
+lines = [l.split() for l in open("a.obj") if not l.startswith("#")]
+assert [[float(x) for x in l[1:]] for l in lines if l[0] == "v"] == [n["position"] for n in nodes]
+assert [[int(x) - 1 for x in l[1:]] for l in lines if l[0] == "l"] == [[e["source"], e["target"]] for e in s["edges"]]
+END
+}
+
+# Names neither EGL's drivers nor OSMesa: no context can be had.
+without_gl() {
+    mkdir -p nothing
+    printf 'not a library' | tee nothing/libOSMesa.so nothing/libOSMesa.so.6 >nothing/libOSMesa.so.8
+    export __EGL_VENDOR_LIBRARY_FILENAMES=/nonexistent LD_LIBRARY_PATH=$PWD/nothing
+}
+
+case_no_backend() {
+    refused 4 '99' extract cube.obj --gpu 99 -o a.json
+    without_gl
+    local backend
+    for backend in gl egl osmesa; do refused 4 "$backend" extract cube.obj --backend "$backend" -o a.json; done
+    refused 4 'gl' compare cube.obj --backend gl
+    # At once: the work that these options ask for would take hours.
+    local hours=(--method paper --backend ray --face-px 64 --step 0.000001 --max-steps 1000000)
+    label='a picture without GL'
+    timeout 20 "$zskel" extract cube.obj "${hours[@]}" -o a.json --picture a.png >out 2>err
+    (($? == 4)) || fail "not refused at once"
+    timeout 20 "$zskel" extract cube.obj "${hours[@]}" -o a.json --picture-paths a.png >out 2>err
+    (($? == 4)) || fail "not refused at once"
+    only_files . cube.obj nothing nothing/libOSMesa.so{,.6,.8} out err
+    run 0 extract cube.obj --method paper --face-px 4 --step 0.02 -o a.json
+    grep -q '^zskel: warning: .*rays' err || fail "no warning that rays are taken"
+    /usr/bin/python3 - <<'END' || fail "the JSON does not say so"
+import json
+backend = json.load(open("a.json"))["provenance"]["backend"]
+assert backend["name"] == "ray" and backend["is_fallback"] is True
+assert backend["failed"] and all(f["candidate"] and f["reason"] for f in backend["failed"])
+END
+    run 0 doctor --json
+    /usr/bin/python3 - <<'END' || fail "doctor does not say so"
+import json
+found = json.load(open("out"))
+assert found["auto_takes"] == "ray" and found["candidates"]
+assert all(not c["usable"] and c["reason"] and c["advice"] for c in found["candidates"])
+END
+}
+
+case_check_failed() {
+    run 0 compare cube.obj --backend ray --against brute --face-px 4 --eyes 4
+    run 0 compare cube.obj --backend ray --against brute --face-px 4 --eyes 4 --json
+    /usr/bin/python3 -c 'import json; assert json.load(open("out"))["within_bounds"] is True' || fail "not within bounds"
+}
+
+case_gl_backends() {
+    run 0 doctor --json
+    local taken backend
+    taken=$(/usr/bin/python3 -c 'import json; print(json.load(open("out"))["auto_takes"])')
+    if [[ $taken == ray ]]; then
+        [[ ${ZSKEL_REQUIRE_GL:-} == 1 ]] && fail "no GL context, though ZSKEL_REQUIRE_GL=1"
+        say "skipped: no GL context"
+        ((failures)) && exit 1
+        exit 77
+    fi
+    for backend in auto gl; do
+        run 0 extract cube.obj --method paper --backend "$backend" --face-px 4 --step 0.05 -o a.json \
+            --picture a.png --picture-width 64 --picture-height 48
+        /usr/bin/python3 - "$taken" <<'END' || fail "the JSON or the picture is not as promised"
+import json, struct, sys
+backend = json.load(open("a.json"))["provenance"]["backend"]
+assert backend["name"] == sys.argv[1] and backend["renderer"] and backend["version"], backend
+assert backend["is_fallback"] is False
+png = open("a.png", "rb").read()
+assert png[:8] == b"\x89PNG\r\n\x1a\n" and struct.unpack(">II", png[16:24]) == (64, 48)
+END
+    done
+    refused 5 '/dev/full' extract cube.obj "${fast[@]}" -o a.json --picture /dev/full
+    # Without EGL: OSMesa answers where it is installed, and nothing that was asked for by name is replaced.
+    export __EGL_VENDOR_LIBRARY_FILENAMES=/nonexistent
+    refused 4 'egl' extract cube.obj --backend egl -o b.json
+    [[ ! -e b.json ]] || fail "an output after a failure"
+    local code=0
+    "$zskel" extract cube.obj --method paper --backend osmesa --face-px 4 --step 0.05 -o b.json 2>err || code=$?
+    if ((code == 0)); then
+        grep -q '"name": "osmesa"' b.json || fail "asked for osmesa, got another"
+    else
+        ((code == 4)) || fail "exit code $code"
+    fi
+}
+
+if [[ ${1:-} == --list ]]; then
+    declare -F | sed -n 's/^declare -f case_//p'
+    exit 0
+fi
+zskel=$(realpath "$1")
+models=$(realpath "$2")
+shift 2
+scratch=$(mktemp -d)
+trap 'chmod -R u+rwx "$scratch"; rm -rf "$scratch"' EXIT
+for name in "$@"; do
+    mkdir "$scratch/$name"
+    cp "$models/cube_coarse.obj" "$scratch/$name/cube.obj"
+    cd "$scratch/$name" || exit 1
+    "case_$name"
+done
+((failures == 0)) || say "$failures failures"
+exit $((failures > 0))
