@@ -8,6 +8,8 @@ namespace {
 
 constexpr double kGrazingCosine = 0.2;
 constexpr double kAheadCosine = 0.8;
+// An eye on the surface meets it at distance 0; its force is then huge, but finite.
+constexpr double kLeastDistance = 1e-12;
 
 // Least distance, measured along the force, to anything within the cone about it.
 float clearance_ahead(const Directions& directions, const MapView& map, const DVec3& force) {
@@ -28,7 +30,7 @@ Force force_at(const Directions& directions, const MapView& map) {
     Force out;
     for (std::size_t i = 0; i < directions.size(); ++i) {
         if (!std::isfinite(map.distance[i])) continue;
-        const double share = directions.weight[i] / static_cast<double>(map.distance[i]);
+        const double share = directions.weight[i] / std::max<double>(map.distance[i], kLeastDistance);
         out.vector -= share * directions.unit[i];
         out.mean_inverse_distance += share;
         out.hit_fraction += directions.weight[i];
@@ -47,7 +49,7 @@ EyeRecord summarize(const Directions& directions, const MapView& map, const Surf
     for (std::size_t i = 0; i < directions.size(); ++i) {
         if (!std::isfinite(map.distance[i])) continue;
         const DVec3& d = directions.unit[i];
-        const double r = map.distance[i];
+        const double r = std::max<double>(map.distance[i], kLeastDistance);
         out.nearest = std::min(out.nearest, map.distance[i]);
         DVec3 n(surface.triangle_normals[map.id[i]]);
         double facing = glm::dot(n, d);
