@@ -13,7 +13,13 @@ using namespace zskel;
 
 namespace {
 
-ExtractResult extract_by_rays(const Mesh& mesh, ExtractOptions options = {}, int face_px = 8) {
+ExtractOptions paper() {
+    ExtractOptions options;
+    options.method = Method::Paper;
+    return options;
+}
+
+ExtractResult extract_by_rays(const Mesh& mesh, const ExtractOptions& options, int face_px = 8) {
     BackendOptions backend_options;
     backend_options.kind = BackendKind::Ray;
     backend_options.face_px = face_px;
@@ -25,7 +31,7 @@ ExtractResult extract_by_rays(const Mesh& mesh, ExtractOptions options = {}, int
 
 TEST_CASE(
     "extract_skeleton: a cube is one node at its centre, within one step (the paper's Figure 3)") {
-    const ExtractResult result = extract_by_rays(test::cube(), {}, 16);
+    const ExtractResult result = extract_by_rays(test::cube(), paper(), 16);
     REQUIRE(result.graph.nodes.size() == 1);
     CHECK(glm::length(result.graph.nodes[0].position) <= ExtractOptions{}.paper.steps.step_world);
     CHECK(result.graph.nodes[0].radius == doctest::Approx(0.5).epsilon(0.01));
@@ -35,7 +41,7 @@ TEST_CASE(
 }
 
 TEST_CASE("extract_skeleton: a torus is a ring of nodes along its core") {
-    const ExtractResult result = extract_by_rays(test::torus());
+    const ExtractResult result = extract_by_rays(test::torus(), paper());
     CHECK(result.graph.nodes.size() > 8);
     for (const SkeletonGraph::Node& node : result.graph.nodes) {
         const double ring = std::hypot(node.position.x, node.position.y);
@@ -48,9 +54,9 @@ TEST_CASE("extract_skeleton: a torus is a ring of nodes along its core") {
 
 TEST_CASE("extract_skeleton: answers in the model's own coordinates") {
     const Mesh here = test::cylinder(0.2, 1.0, 24, 17);
-    const ExtractResult plain = extract_by_rays(here);
+    const ExtractResult plain = extract_by_rays(here, paper());
     // Powers of two, so that the world coordinates are the same to the last bit.
-    const ExtractResult moved = extract_by_rays(test::moved(here, {1024, -512, 64}, 8.0));
+    const ExtractResult moved = extract_by_rays(test::moved(here, {1024, -512, 64}, 8.0), paper());
     REQUIRE(plain.graph.nodes.size() == moved.graph.nodes.size());
     for (std::size_t i = 0; i < plain.graph.nodes.size(); ++i) {
         const DVec3 expected = plain.graph.nodes[i].position * 8.0 + DVec3(1024, -512, 64);
@@ -63,7 +69,7 @@ TEST_CASE("extract_skeleton: answers in the model's own coordinates") {
 TEST_CASE("extract_skeleton: every input vertex with a face has a node, others have none") {
     Mesh mesh = test::cylinder(0.2, 1.0, 16, 9);
     mesh.positions.emplace_back(9, 9, 9);
-    const ExtractResult result = extract_by_rays(mesh);
+    const ExtractResult result = extract_by_rays(mesh, paper());
     REQUIRE(result.graph.vertex_node.size() == mesh.positions.size());
     for (std::size_t v = 0; v + 1 < mesh.positions.size(); ++v) {
         CHECK(result.graph.vertex_node[v] < result.graph.nodes.size());
@@ -75,7 +81,7 @@ TEST_CASE("extract_skeleton: every input vertex with a face has a node, others h
 TEST_CASE("extract_skeleton: solids get skeletons of their own, and do not see each other") {
     const Mesh one = test::sphere(0.3, 2);
     const Mesh pair = test::together(one, test::moved(one, {0.62, 0, 0}));
-    const ExtractResult result = extract_by_rays(pair);
+    const ExtractResult result = extract_by_rays(pair, paper());
     CHECK(result.statistics.solids == 2);
     REQUIRE(result.graph.nodes.size() == 2);
     CHECK(glm::length(result.graph.nodes[0].position) < 0.02);
@@ -86,29 +92,30 @@ TEST_CASE("extract_skeleton: solids get skeletons of their own, and do not see e
 TEST_CASE("extract_skeleton: the same at one thread and at many") {
     const Mesh mesh = test::torus(0.35, 0.12, 24, 12);
     set_thread_limit(1);
-    const ExtractResult one = extract_by_rays(mesh);
+    const ExtractResult one = extract_by_rays(mesh, paper());
     set_thread_limit(0);
-    const ExtractResult many = extract_by_rays(mesh);
+    const ExtractResult many = extract_by_rays(mesh, paper());
     CHECK(skeleton_obj(one.graph) == skeleton_obj(many.graph));
     CHECK(one.graph.vertex_node == many.graph.vertex_node);
 }
 
 TEST_CASE("extract_skeleton: progress is told, and can stop the work") {
-    ExtractOptions options;
+    ExtractOptions options = paper();
     std::vector<std::string> stages;
     options.progress = [&](std::string_view stage, double) {
         if (stages.empty() || stages.back() != stage) stages.emplace_back(stage);
         return true;
     };
     extract_by_rays(test::sphere(0.5, 2), options);
-    CHECK(stages == std::vector<std::string>{"prepare", "seeds", "settle", "cluster", "connect"});
+    CHECK(stages ==
+          std::vector<std::string>{"prepare", "backend", "seeds", "settle", "cluster", "connect"});
     options.progress = [](std::string_view stage, double) { return stage != "settle"; };
     CHECK_THROWS_AS(extract_by_rays(test::sphere(0.5, 2), options), Cancelled);
 }
 
 TEST_CASE("skeleton_json: holds nodes, edges, vertex map, statistics and provenance") {
     const Mesh mesh = test::cylinder(0.2, 1.0, 16, 9);
-    ExtractOptions options;
+    ExtractOptions options = paper();
     options.paper.steps.keep_paths = true;
     const ExtractResult result = extract_by_rays(mesh, options);
     Provenance provenance;

@@ -157,10 +157,13 @@ TEST_CASE("raster: EGL and OSMesa agree with each other") {
 
 TEST_CASE("paper's method, raster against rays: seeds, nodes and skeletons agree") {
     const Mesh mesh = test::torus(0.35, 0.12, 24, 12);
-    const ExtractResult a = extract_skeleton(mesh, {}, *backend_of(BackendKind::Gl));
-    const ExtractResult b = extract_skeleton(mesh, {}, *backend_of(BackendKind::Ray));
+    ExtractOptions options;
+    options.method = Method::Paper;
+    const ExtractResult a = extract_skeleton(mesh, options, *backend_of(BackendKind::Gl));
+    const ExtractResult b = extract_skeleton(mesh, options, *backend_of(BackendKind::Ray));
     REQUIRE(a.seeds.size() == b.seeds.size());
-    const double two_steps = 2.0 * ExtractOptions{}.paper.steps.step_world / a.surface.world_from_model.scale;
+    const double two_steps =
+        2.0 * ExtractOptions{}.paper.steps.step_world / a.surface.world_from_model.scale;
     const auto near = std::count_if(a.seeds.begin(), a.seeds.end(), [&](const SeedReport& seed) {
         return glm::distance(seed.end,
                              b.seeds[static_cast<std::size_t>(&seed - a.seeds.data())].end) <=

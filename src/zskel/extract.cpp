@@ -183,7 +183,8 @@ ExtractResult extract_skeleton(const Mesh& mesh, const ExtractOptions& options, 
     ExtractResult result;
     Stages stages(result.statistics, options);
     stages.begin("prepare");
-    PreparedSurface prepared = prepare_surface(mesh, options.method == Method::Paper ? WorldSize::UnitCube : WorldSize::Spread);
+    PreparedSurface prepared = prepare_surface(
+        mesh, options.method == Method::Paper ? WorldSize::UnitCube : WorldSize::Spread);
     const std::vector<Solid> solids = split_solids(prepared);
     result.repairs = prepared.repairs;
     result.statistics.faces = prepared.surface.triangles.size();

@@ -79,8 +79,8 @@ struct ExtractResult {
     Surface surface;  ///< what was worked on: all solids, world space
 };
 
-/// The whole pipeline: mesh -> surface -> solids -> seeds -> settled seeds -> clusters -> graph -> refined.
-/// Same mesh, options and backend give the same graph, at any number of threads.
+/// The whole pipeline: mesh -> surface -> solids -> seeds -> settled seeds -> clusters -> graph ->
+/// refined. Same mesh, options and backend give the same graph, at any number of threads.
 /// @throws InputError for a mesh without area, GlError when the backend fails, Cancelled.
 ExtractResult extract_skeleton(const Mesh& mesh, const ExtractOptions& options, Backend& backend);
 

@@ -36,9 +36,9 @@ bool find_sides(const Surface& surface, EdgeSides& sides) {
             const std::uint32_t a = surface.triangles[t][k];
             const std::uint32_t b = surface.triangles[t][(k + 1) % 3];
             const glm::uvec2 wanted(std::min(a, b), std::max(a, b));
-            const auto at = std::lower_bound(surface.edges.begin(), surface.edges.end(), wanted, [](const auto& l, const auto& r) {
-                return l.x != r.x ? l.x < r.x : l.y < r.y;
-            });
+            const auto at = std::lower_bound(
+                surface.edges.begin(), surface.edges.end(), wanted,
+                [](const auto& l, const auto& r) { return l.x != r.x ? l.x < r.x : l.y < r.y; });
             const auto e = static_cast<std::uint32_t>(at - surface.edges.begin());
             std::uint32_t& side = a < b ? sides.left[e] : sides.right[e];
             if (side != kNone) return false;
@@ -55,13 +55,14 @@ bool find_sides(const Surface& surface, EdgeSides& sides) {
 // Shortest paths from the first vertex of every component.
 struct PathTree {
     std::vector<float> distance;
-    std::vector<std::uint32_t> parent;      // itself at a root
+    std::vector<std::uint32_t> parent;  // itself at a root
     std::vector<bool> is_tree_edge;
     std::size_t components = 0;
 };
 
 PathTree grow_paths(const Surface& surface, const VertexGraph& graph) {
-    PathTree tree{std::vector<float>(graph.size(), kInfinity), std::vector<std::uint32_t>(graph.size(), kNone),
+    PathTree tree{std::vector<float>(graph.size(), kInfinity),
+                  std::vector<std::uint32_t>(graph.size(), kNone),
                   std::vector<bool>(surface.edges.size(), false), 0};
     std::vector<std::uint32_t> parent_edge(graph.size(), kNone);
     using Entry = std::pair<float, std::uint32_t>;
@@ -93,10 +94,10 @@ PathTree grow_paths(const Surface& surface, const VertexGraph& graph) {
     return tree;
 }
 
-// A spanning tree of the triangles over edges that the path tree does not use, those first that would close the
-// longest loops; the edges that are left close the 2g shortest.
-std::vector<std::uint32_t> loop_edges(const Surface& surface, const EdgeSides& sides, const PathTree& tree,
-                                      std::vector<bool>& is_dual_edge) {
+// A spanning tree of the triangles over edges that the path tree does not use, those first that
+// would close the longest loops; the edges that are left close the 2g shortest.
+std::vector<std::uint32_t> loop_edges(const Surface& surface, const EdgeSides& sides,
+                                      const PathTree& tree, std::vector<bool>& is_dual_edge) {
     std::vector<std::uint32_t> order;
     for (std::uint32_t e = 0; e < surface.edges.size(); ++e) {
         if (!tree.is_tree_edge[e]) order.push_back(e);
@@ -106,7 +107,8 @@ std::vector<std::uint32_t> loop_edges(const Surface& surface, const EdgeSides& s
         return tree.distance[edge.x] + tree.distance[edge.y] +
                glm::distance(surface.positions[edge.x], surface.positions[edge.y]);
     };
-    std::stable_sort(order.begin(), order.end(), [&](auto l, auto r) { return loop_length(l) > loop_length(r); });
+    std::stable_sort(order.begin(), order.end(),
+                     [&](auto l, auto r) { return loop_length(l) > loop_length(r); });
     DisjointSets sets(surface.triangles.size());
     is_dual_edge.assign(surface.edges.size(), false);
     std::vector<std::uint32_t> left;
@@ -133,8 +135,8 @@ std::vector<std::uint32_t> loop_of(const glm::uvec2& edge, const PathTree& tree)
         a.pop_back();
         b.pop_back();
     }
-    std::reverse(a.begin(), a.end());   // meeting point .. x
-    b.pop_back();                       // y .. before the meeting point
+    std::reverse(a.begin(), a.end());  // meeting point .. x
+    b.pop_back();                      // y .. before the meeting point
     a.insert(a.end(), b.begin(), b.end());
     return a;
 }
@@ -144,8 +146,8 @@ double half_angle(const DVec3& a, const DVec3& b, const DVec3& c) {
     const double la = glm::length(a);
     const double lb = glm::length(b);
     const double lc = glm::length(c);
-    return std::atan2(glm::dot(a, glm::cross(b, c)),
-                      la * lb * lc + glm::dot(a, b) * lc + glm::dot(b, c) * la + glm::dot(c, a) * lb);
+    return std::atan2(glm::dot(a, glm::cross(b, c)), la * lb * lc + glm::dot(a, b) * lc +
+                                                         glm::dot(b, c) * la + glm::dot(c, a) * lb);
 }
 
 // Gauss's integral of two closed polygons: for each pair of segments the signed solid angle of the
@@ -168,7 +170,8 @@ double linking_number(const std::vector<DVec3>& p, const std::vector<DVec3>& q) 
     return sum / (2.0 * std::numbers::pi);
 }
 
-std::vector<DVec3> points_of(const std::vector<std::uint32_t>& loop, const std::vector<Vec3>& positions) {
+std::vector<DVec3> points_of(const std::vector<std::uint32_t>& loop,
+                             const std::vector<Vec3>& positions) {
     std::vector<DVec3> points;
     for (const std::uint32_t v : loop) points.emplace_back(positions[v]);
     return points;
@@ -185,7 +188,9 @@ std::vector<Row> lattice_basis(std::vector<Row> rows) {
             for (std::size_t r = done; r < rows.size(); ++r) {
                 if (rows[r][column] == 0) continue;
                 ++others;
-                if (pivot == rows.size() || std::abs(rows[r][column]) < std::abs(rows[pivot][column])) pivot = r;
+                if (pivot == rows.size() ||
+                    std::abs(rows[r][column]) < std::abs(rows[pivot][column]))
+                    pivot = r;
             }
             if (others == 0) break;
             std::swap(rows[done], rows[pivot]);
@@ -208,7 +213,8 @@ Row coordinates(Row row, const std::vector<Row>& basis) {
     Row out;
     for (const Row& b : basis) {
         const auto pivot = static_cast<std::size_t>(
-            std::find_if(b.begin(), b.end(), [](std::int64_t value) { return value != 0; }) - b.begin());
+            std::find_if(b.begin(), b.end(), [](std::int64_t value) { return value != 0; }) -
+            b.begin());
         const std::int64_t times = row[pivot] / b[pivot];
         for (std::size_t c = 0; c < row.size(); ++c) row[c] -= times * b[c];
         out.push_back(times);
@@ -216,14 +222,16 @@ Row coordinates(Row row, const std::vector<Row>& basis) {
     return out;
 }
 
-// Linking numbers of every loop pushed inside with every loop; false when one is not near an integer.
+// Linking numbers of every loop pushed inside with every loop; false when one is not near an
+// integer.
 bool link_loops(const std::vector<std::vector<std::uint32_t>>& loops, const Surface& surface,
                 const std::vector<Vec3>& inner, std::vector<Row>& matrix) {
     const std::size_t n = loops.size();
     std::vector<double> raw(n * n);
     parallel_for(n * n, 1, [&](std::size_t begin, std::size_t end) {
         for (std::size_t k = begin; k < end; ++k) {
-            raw[k] = linking_number(points_of(loops[k / n], inner), points_of(loops[k % n], surface.positions));
+            raw[k] = linking_number(points_of(loops[k / n], inner),
+                                    points_of(loops[k % n], surface.positions));
         }
     });
     matrix.assign(n, Row(n, 0));
@@ -234,10 +242,10 @@ bool link_loops(const std::vector<std::vector<std::uint32_t>>& loops, const Surf
     return true;
 }
 
-// Fills the classes of the edges that the dual tree crosses: round every triangle they sum to zero, so a triangle
-// with one unknown edge settles it, from the leaves inward.
-void settle_dual_edges(const Surface& surface, const EdgeSides& sides, const std::vector<bool>& is_dual_edge,
-                       HandleClasses& out) {
+// Fills the classes of the edges that the dual tree crosses: round every triangle they sum to zero,
+// so a triangle with one unknown edge settles it, from the leaves inward.
+void settle_dual_edges(const Surface& surface, const EdgeSides& sides,
+                       const std::vector<bool>& is_dual_edge, HandleClasses& out) {
     const std::size_t g = out.genus;
     std::vector<int> unknown(surface.triangles.size(), 0);
     for (std::uint32_t t = 0; t < surface.triangles.size(); ++t) {
@@ -264,7 +272,8 @@ void settle_dual_edges(const Surface& surface, const EdgeSides& sides, const std
             for (std::size_t k = 0; k < g; ++k) sum[k] += sign * out.edge_class[e * g + k];
         }
         const std::int64_t sign = sides.left[open] == t ? -1 : 1;
-        for (std::size_t k = 0; k < g; ++k) out.edge_class[open * g + k] = static_cast<std::int32_t>(sign * sum[k]);
+        for (std::size_t k = 0; k < g; ++k)
+            out.edge_class[open * g + k] = static_cast<std::int32_t>(sign * sum[k]);
         known[open] = true;
         for (const std::uint32_t side : {sides.left[open], sides.right[open]}) {
             if (--unknown[side] == 1) ready.push_back(side);
@@ -274,7 +283,8 @@ void settle_dual_edges(const Surface& surface, const EdgeSides& sides, const std
 
 }  // namespace
 
-std::optional<HandleClasses> find_handles(const Surface& surface, const std::vector<Vec3>& inner, std::string& why) {
+std::optional<HandleClasses> find_handles(const Surface& surface, const std::vector<Vec3>& inner,
+                                          std::string& why) {
     EdgeSides sides;
     if (!find_sides(surface, sides)) {
         why = "the surface is not closed, oriented and manifold";
@@ -293,8 +303,8 @@ std::optional<HandleClasses> find_handles(const Surface& surface, const std::vec
     const bool integral = link_loops(loops, surface, inner, links);
     const std::vector<Row> basis = lattice_basis(links);
     if (!integral || basis.size() != out.genus) {
-        why = fmt::format("{} loops of genus {} link with rank {}{}", loops.size(), out.genus, basis.size(),
-                          integral ? "" : ", not all by integers");
+        why = fmt::format("{} loops of genus {} link with rank {}{}", loops.size(), out.genus,
+                          basis.size(), integral ? "" : ", not all by integers");
         return std::nullopt;
     }
     out.edge_class.assign(surface.edges.size() * out.genus, 0);

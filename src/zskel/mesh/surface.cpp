@@ -249,7 +249,8 @@ Similarity unit_cube(const std::vector<DVec3>& positions, const std::string& nam
     return {low + half, 1.0 / size};
 }
 
-// Second moments of the triangles about their common centroid, in the unit cube so that nothing overflows.
+// Second moments of the triangles about their common centroid, in the unit cube so that nothing
+// overflows.
 Similarity by_spread(const Welded& welded, const Similarity& cube) {
     double area_sum = 0.0;
     DVec3 first(0.0);
@@ -262,7 +263,8 @@ Similarity by_spread(const Welded& welded, const Similarity& cube) {
         const DVec3 sum = a + b + c;
         area_sum += area;
         first += sum * (area / 3.0);
-        second += area / 12.0 * (glm::dot(a, a) + glm::dot(b, b) + glm::dot(c, c) + glm::dot(sum, sum));
+        second +=
+            area / 12.0 * (glm::dot(a, a) + glm::dot(b, b) + glm::dot(c, c) + glm::dot(sum, sum));
     }
     if (!(area_sum > 0.0)) return cube;
     const DVec3 centroid = first / area_sum;
@@ -283,7 +285,8 @@ PreparedSurface prepare_surface(const Mesh& mesh, WorldSize size) {
     }
     orient(welded, out);
     out.surface.world_from_model = unit_cube(welded.positions, mesh.name);
-    if (size == WorldSize::Spread) out.surface.world_from_model = by_spread(welded, out.surface.world_from_model);
+    if (size == WorldSize::Spread)
+        out.surface.world_from_model = by_spread(welded, out.surface.world_from_model);
     out.surface.positions.reserve(welded.positions.size());
     for (const DVec3& p : welded.positions) {
         out.surface.positions.push_back(out.surface.world_from_model.to_world(p));

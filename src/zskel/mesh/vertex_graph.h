@@ -12,11 +12,12 @@ namespace zskel {
 class VertexGraph {
   public:
     struct Link {
-        std::uint32_t vertex;   ///< the neighbour
-        std::uint32_t edge;     ///< number in Surface::edges
+        std::uint32_t vertex;  ///< the neighbour
+        std::uint32_t edge;    ///< number in Surface::edges
     };
 
-    VertexGraph(std::size_t vertices, std::span<const glm::uvec2> edges) : first_(vertices + 1, 0), links_(edges.size() * 2) {
+    VertexGraph(std::size_t vertices, std::span<const glm::uvec2> edges)
+        : first_(vertices + 1, 0), links_(edges.size() * 2) {
         for (const glm::uvec2& e : edges) {
             ++first_[e.x + 1];
             ++first_[e.y + 1];

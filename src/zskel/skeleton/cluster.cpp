@@ -61,8 +61,7 @@ class Merger {
 
   private:
     void offer(std::uint32_t a, std::uint32_t b) {
-        const double distance =
-            glm::distance(clusters_[a].center(), clusters_[b].center());
+        const double distance = glm::distance(clusters_[a].center(), clusters_[b].center());
         const double range = std::min(clusters_[a].range(), clusters_[b].range());
         if (distance > range) return;
         const double share = range > 0.0 ? distance / range : 0.0;

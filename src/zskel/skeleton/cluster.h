@@ -26,8 +26,8 @@ struct ClusterOptions {
 Clusters cluster_minima(std::span<const Vec3> points, std::span<const glm::uvec2> links,
                         const ClusterOptions& options);
 
-/// The same with a range for each point: two clusters merge within the smaller of their members' mean
-/// ranges, the pair first that is nearest in terms of it.
+/// The same with a range for each point: two clusters merge within the smaller of their members'
+/// mean ranges, the pair first that is nearest in terms of it.
 Clusters cluster_minima(std::span<const Vec3> points, std::span<const glm::uvec2> links,
                         std::span<const float> ranges);
 

@@ -17,13 +17,13 @@ namespace zskel {
 /// The skeleton of one solid, world space, with the solid's own vertex numbers.
 struct SolidSkeleton {
     std::vector<Vec3> nodes;
-    std::vector<float> radii;                   ///< inscribed
-    std::vector<glm::uvec2> edges;              ///< lower node first, each once, sorted
-    std::vector<std::uint32_t> vertex_node;     ///< of every vertex
+    std::vector<float> radii;                ///< inscribed
+    std::vector<glm::uvec2> edges;           ///< lower node first, each once, sorted
+    std::vector<std::uint32_t> vertex_node;  ///< of every vertex
     std::vector<Seed> seeds;
-    std::vector<SettledSeed> settled;           ///< of every seed
-    std::size_t forest_edges = 0;               ///< edges left when every cycle is opened at its longest
-    std::size_t expected_cycles = 0;            ///< handles; 0 where they are not known
+    std::vector<SettledSeed> settled;  ///< of every seed
+    std::size_t forest_edges = 0;      ///< edges left when every cycle is opened at its longest
+    std::size_t expected_cycles = 0;   ///< handles; 0 where they are not known
     RefineReport refine;
     std::vector<std::string> warnings;
 };
@@ -40,8 +40,8 @@ struct PaperMethodOptions {
     PaperStepOptions steps;
     ClusterOptions clusters;
 };
-SolidSkeleton extract_by_paper(const Surface& surface, VisibilitySource& source, const PaperMethodOptions& options,
-                               const MethodProgress& progress);
+SolidSkeleton extract_by_paper(const Surface& surface, VisibilitySource& source,
+                               const PaperMethodOptions& options, const MethodProgress& progress);
 
 /// Newton steps from spread seeds, a network with the solid's topology, refined.
 /// @param is_closed  whether handles are to be found; on an open surface the network is a forest.
@@ -49,10 +49,10 @@ struct NewtonMethodOptions {
     SeedOptions seeds;
     SpreadOptions spread;
     NewtonOptions steps;
-    double cluster_radii = 0.5;                 ///< range within which end points become one, in local radii
-    double min_cluster_world = 0.006;           ///< but between these
+    double cluster_radii = 0.5;        ///< range within which end points become one, in local radii
+    double min_cluster_world = 0.006;  ///< but between these
     double max_cluster_world = 0.05;
-    int max_retries = 4;                        ///< each with half the range, when clusters have swallowed a handle
+    int max_retries = 4;  ///< each with half the range, when clusters have swallowed a handle
     RefineOptions refine;
 };
 SolidSkeleton extract_by_newton(const Surface& surface, bool is_closed, VisibilitySource& source,

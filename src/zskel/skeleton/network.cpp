@@ -16,7 +16,7 @@ using Class = std::vector<std::int64_t>;
 
 struct Candidate {
     Connection connection;
-    Class cls;                  // along the mesh edge, from root to root of the two patches
+    Class cls;  // along the mesh edge, from root to root of the two patches
 };
 
 void add_to(Class& sum, const Class& other, std::int64_t sign) {
@@ -26,7 +26,9 @@ void add_to(Class& sum, const Class& other, std::int64_t sign) {
 class Network {
   public:
     Network(const ClusterContext& context, const std::optional<HandleClasses>& handles)
-        : context_(context), handles_(handles), genus_(handles ? handles->genus : 0),
+        : context_(context),
+          handles_(handles),
+          genus_(handles ? handles->genus : 0),
           graph_(context.surface.positions.size(), context.surface.edges) {
         walk_patches();
         gather();
@@ -58,6 +60,7 @@ class Network {
             tree_[c.b].push_back({c.a, i, -1});
         }
         enough = genus_ == 0 || add_cycles(others, chosen);
+        bridge_shells(sets, chosen);
         return chosen;
     }
 
@@ -80,12 +83,13 @@ class Network {
         return out;
     }
 
-    // The class of the way to every vertex from the first seed of its cluster: from seed to seed where their patches
-    // meet or a shortcut joins them, then within the patch.
+    // The class of the way to every vertex from the first seed of its cluster: from seed to seed
+    // where their patches meet or a shortcut joins them, then within the patch.
     void walk_patches() {
         if (genus_ == 0) return;
         walk_cells();
-        const std::map<std::pair<std::uint32_t, std::uint32_t>, Class> seed_links = classify_links();
+        const std::map<std::pair<std::uint32_t, std::uint32_t>, Class> seed_links =
+            classify_links();
         const auto link_class = [&](std::uint32_t a, std::uint32_t b) {
             Class cls(genus_, 0);
             add_to(cls, seed_links.at(std::minmax(a, b)), a < b ? 1 : -1);
@@ -104,7 +108,8 @@ class Network {
             ways[a].push_back({b, cls});
             ways[b].push_back({a, std::move(back)});
         };
-        for (const glm::uvec2& link : context_.links) add_way(link.x, link.y, link_class(link.x, link.y));
+        for (const glm::uvec2& link : context_.links)
+            add_way(link.x, link.y, link_class(link.x, link.y));
         for (const Shortcut& shortcut : context_.shortcuts) {
             Class cls(genus_, 0);
             for (std::size_t i = 1; i < shortcut.walk.size(); ++i) {
@@ -126,7 +131,8 @@ class Network {
                 }
             }
         }
-        for (std::uint32_t v = 0; v < graph_.size(); ++v) add_to(from_root_[v], to_seed[context_.spread.seed_of[v]], 1);
+        for (std::uint32_t v = 0; v < graph_.size(); ++v)
+            add_to(from_root_[v], to_seed[context_.spread.seed_of[v]], 1);
     }
 
     // The class of the way from its seed's vertex to every vertex, along the parents.
@@ -135,7 +141,8 @@ class Network {
         for (std::uint32_t v = 0; v < graph_.size(); ++v) {
             std::vector<std::uint32_t> way;
             std::uint32_t at = v;
-            for (; from_root_[at].empty() && context_.spread.parent[at] != at; at = context_.spread.parent[at]) {
+            for (; from_root_[at].empty() && context_.spread.parent[at] != at;
+                 at = context_.spread.parent[at]) {
                 way.push_back(at);
             }
             if (from_root_[at].empty()) from_root_[at].assign(genus_, 0);
@@ -154,7 +161,8 @@ class Network {
         return Class(genus_, 0);
     }
 
-    // Of every two seeds whose patches meet, lower first: the class of the way between their vertices.
+    // Of every two seeds whose patches meet, lower first: the class of the way between their
+    // vertices.
     std::map<std::pair<std::uint32_t, std::uint32_t>, Class> classify_links() const {
         std::map<std::pair<std::uint32_t, std::uint32_t>, Class> out;
         for (std::uint32_t e = 0; e < context_.surface.edges.size(); ++e) {
@@ -162,7 +170,8 @@ class Network {
             std::uint32_t w = context_.surface.edges[e].y;
             if (context_.spread.seed_of[v] == context_.spread.seed_of[w]) continue;
             if (context_.spread.seed_of[v] > context_.spread.seed_of[w]) std::swap(v, w);
-            const auto [at, is_new] = out.try_emplace({context_.spread.seed_of[v], context_.spread.seed_of[w]}, from_root_[v]);
+            const auto [at, is_new] = out.try_emplace(
+                {context_.spread.seed_of[v], context_.spread.seed_of[w]}, from_root_[v]);
             if (!is_new) continue;
             add_to(at->second, class_between(v, w), 1);
             add_to(at->second, from_root_[w], -1);
@@ -187,12 +196,14 @@ class Network {
                 add_to(cls, from_root_[w], -1);
             }
             Candidate candidate{{cluster_of(v), cluster_of(w), v, w, {}, 0.0f, true}, cls};
-            const auto [at, is_new] = known.try_emplace({{candidate.connection.a, candidate.connection.b}, cls}, candidates_.size());
+            const auto [at, is_new] = known.try_emplace(
+                {{candidate.connection.a, candidate.connection.b}, cls}, candidates_.size());
             if (is_new) candidates_.push_back(std::move(candidate));
         }
     }
 
-    // Straight when that is free; else down the way of one seed, along the surface, and up the other's.
+    // Straight when that is free; else down the way of one seed, along the surface, and up the
+    // other's.
     void lay_path(Connection& c) const {
         const Vec3& from = context_.clusters.centers[c.a];
         const Vec3& to = context_.clusters.centers[c.b];
@@ -207,10 +218,12 @@ class Network {
             c.is_inside = is_free(c.path, context_.query);
         }
         c.length = 0.0f;
-        for (std::size_t i = 1; i < c.path.size(); ++i) c.length += glm::distance(c.path[i - 1], c.path[i]);
+        for (std::size_t i = 1; i < c.path.size(); ++i)
+            c.length += glm::distance(c.path[i - 1], c.path[i]);
     }
 
-    // From the end of the vertex's seed, back along its path to its start, then over the surface to the vertex.
+    // From the end of the vertex's seed, back along its path to its start, then over the surface to
+    // the vertex.
     void append_way(std::uint32_t vertex, std::vector<Vec3>& way) const {
         const SettledSeed& seed = context_.settled[context_.spread.seed_of[vertex]];
         way.insert(way.end(), seed.path.rbegin(), seed.path.rend());
@@ -220,6 +233,36 @@ class Network {
             if (context_.spread.parent[v] == v) break;
         }
         way.insert(way.end(), over.rbegin(), over.rend());
+    }
+
+    // The mesh joins nothing across a solid's shells (a ball with a cavity); the nearest clusters
+    // that see each other do.
+    void bridge_shells(DisjointSets& sets, std::vector<Connection>& chosen) const {
+        const std::vector<Vec3>& centers = context_.clusters.centers;
+        std::vector<Connection> bridges;
+        for (std::uint32_t a = 0; a < centers.size(); ++a) {
+            if (sets.find(a) == sets.find(0)) continue;
+            for (std::uint32_t b = 0; b < centers.size(); ++b) {
+                if (sets.find(b) == sets.find(a) || (b < a && sets.find(b) != sets.find(0)))
+                    continue;
+                bridges.push_back({std::min(a, b),
+                                   std::max(a, b),
+                                   0,
+                                   0,
+                                   {centers[std::min(a, b)], centers[std::max(a, b)]},
+                                   glm::distance(centers[a], centers[b]),
+                                   true});
+            }
+        }
+        std::stable_sort(
+            bridges.begin(), bridges.end(),
+            [](const Connection& l, const Connection& r) { return l.length < r.length; });
+        for (const Connection& bridge : bridges) {
+            if (sets.find(bridge.a) == sets.find(bridge.b) || !is_free(bridge.path, context_.query))
+                continue;
+            sets.unite(bridge.a, bridge.b);
+            chosen.push_back(bridge);
+        }
     }
 
     struct Cycle {
@@ -245,7 +288,8 @@ class Network {
                     if (parent_[link.cluster] != kNone) continue;
                     parent_[link.cluster] = c;
                     depth_[link.cluster] = depth_[c] + 1;
-                    reach_[link.cluster] = reach_[c] + candidates_[link.candidate].connection.length;
+                    reach_[link.cluster] =
+                        reach_[c] + candidates_[link.candidate].connection.length;
                     potential_[link.cluster] = potential_[c];
                     add_to(potential_[link.cluster], candidates_[link.candidate].cls, link.sign);
                     queue.push_back(link.cluster);
@@ -271,11 +315,14 @@ class Network {
             Class cls = candidates_[i].cls;
             add_to(cls, potential_[c.a], 1);
             add_to(cls, potential_[c.b], -1);
-            if (std::all_of(cls.begin(), cls.end(), [](std::int64_t k) { return k == 0; })) continue;
-            const float length = c.length + reach_[c.a] + reach_[c.b] - 2.0f * reach_[meeting(c.a, c.b)];
+            if (std::all_of(cls.begin(), cls.end(), [](std::int64_t k) { return k == 0; }))
+                continue;
+            const float length =
+                c.length + reach_[c.a] + reach_[c.b] - 2.0f * reach_[meeting(c.a, c.b)];
             cycles.push_back({i, length, std::move(cls)});
         }
-        std::stable_sort(cycles.begin(), cycles.end(), [](const Cycle& l, const Cycle& r) { return l.length < r.length; });
+        std::stable_sort(cycles.begin(), cycles.end(),
+                         [](const Cycle& l, const Cycle& r) { return l.length < r.length; });
         std::vector<Class> accepted;
         for (const Cycle& cycle : cycles) {
             if (accepted.size() == genus_) break;
@@ -304,8 +351,8 @@ class Network {
 
 }  // namespace
 
-std::vector<Connection> connect_network(const ClusterContext& context, const std::optional<HandleClasses>& handles,
-                                        bool& enough) {
+std::vector<Connection> connect_network(const ClusterContext& context,
+                                        const std::optional<HandleClasses>& handles, bool& enough) {
     return Network(context, handles).choose(enough);
 }
 

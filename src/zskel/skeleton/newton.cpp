@@ -1,5 +1,6 @@
-// Near the axis of a sphere, a cylinder and a slab alike the mean force is -x / (3 R^2), so a Newton step on it
-// lands on the axis; the paper's fixed steps need some 50 evaluations for the same way.
+// Near the axis of a sphere, a cylinder and a slab alike the mean force is -x / (3 R^2), so a
+// Newton step on it lands on the axis; the paper's fixed steps need some 50 evaluations for the
+// same way.
 #include "zskel/skeleton/newton.h"
 
 #include <algorithm>
@@ -18,8 +19,8 @@ struct Walker {
     std::uint32_t index = 0;
     Vec3 tried{0.0f};
     Vec3 here{0.0f};
-    EyeRecord met;               // at `here`
-    DVec3 step{0.0};             // from `here` to `tried`
+    EyeRecord met;    // at `here`
+    DVec3 step{0.0};  // from `here` to `tried`
     DVec3 last_step{0.0};
     std::array<DVec3, 3> axes{};  // that the step moves in, and how many
     int axis_count = 0;
@@ -31,7 +32,8 @@ struct Walker {
 
 class NewtonWalk {
   public:
-    NewtonWalk(std::span<const Seed> seeds, const NewtonOptions& options) : options_(options), settled_(seeds.size()) {
+    NewtonWalk(std::span<const Seed> seeds, const NewtonOptions& options)
+        : options_(options), settled_(seeds.size()) {
         for (std::uint32_t i = 0; i < seeds.size(); ++i) {
             settled_[i].position = seeds[i].position;
             Walker walker;
@@ -72,12 +74,13 @@ class NewtonWalk {
         }
         if (walker.started && (is_outside || !is_descent(walker, met))) return halve(walker, seed);
         accept(walker, seed, met);
-        if (seed.steps >= static_cast<std::uint32_t>(options_.max_steps)) return rest(seed, SeedState::StepLimit);
+        if (seed.steps >= static_cast<std::uint32_t>(options_.max_steps))
+            return rest(seed, SeedState::StepLimit);
         return plan(walker, seed);
     }
 
-    // Whether the force grew in the axes that the step moved in. The jump may land anywhere in the chord's
-    // middle, where forces from both sides compare.
+    // Whether the force grew in the axes that the step moved in. The jump may land anywhere in the
+    // chord's middle, where forces from both sides compare.
     static bool is_descent(const Walker& walker, const EyeRecord& met) {
         double before = 0.0;
         double after = 0.0;
@@ -117,7 +120,8 @@ class NewtonWalk {
     }
 
     double stop_length(const Walker& walker) const {
-        return std::min(options_.stop_world, options_.stop_nearest * static_cast<double>(walker.met.nearest));
+        return std::min(options_.stop_world,
+                        options_.stop_nearest * static_cast<double>(walker.met.nearest));
     }
 
     // To the middle of the free way ahead.
@@ -141,7 +145,8 @@ class NewtonWalk {
         DVec3 step(0.0);
         for (int k = 0; k < walker.axis_count; ++k) {
             const auto i = static_cast<std::size_t>(k);
-            step += eigen.vectors[i] * (glm::dot(force, eigen.vectors[i]) / std::max(eigen.values[i], floor));
+            step += eigen.vectors[i] *
+                    (glm::dot(force, eigen.vectors[i]) / std::max(eigen.values[i], floor));
         }
         if (glm::dot(step, walker.last_step) < 0.0) walker.damping *= options_.reversal_damping;
         step *= walker.damping;
@@ -165,7 +170,8 @@ class NewtonWalk {
 }  // namespace
 
 std::vector<SettledSeed> settle_seeds_newton(VisibilitySource& source, std::span<const Seed> seeds,
-                                             const NewtonOptions& options, const SettleProgress& progress) {
+                                             const NewtonOptions& options,
+                                             const SettleProgress& progress) {
     NewtonWalk walk(seeds, options);
     while (!walk.is_done()) {
         walk.round(source);

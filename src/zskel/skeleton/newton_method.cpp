@@ -17,7 +17,9 @@ std::vector<glm::uvec2> seed_links(const Surface& surface, const SeedSpread& spr
         const std::uint32_t b = spread.seed_of[edge.y];
         if (a != b) links.emplace_back(std::min(a, b), std::max(a, b));
     }
-    const auto before = [](const glm::uvec2& l, const glm::uvec2& r) { return l.x != r.x ? l.x < r.x : l.y < r.y; };
+    const auto before = [](const glm::uvec2& l, const glm::uvec2& r) {
+        return l.x != r.x ? l.x < r.x : l.y < r.y;
+    };
     std::sort(links.begin(), links.end(), before);
     links.erase(std::unique(links.begin(), links.end()), links.end());
     return links;
@@ -28,7 +30,9 @@ void center_on_members(Clusters& clusters, std::span<const Vec3> ends) {
     std::vector<std::uint32_t> best(clusters.centers.size(), kNone);
     for (std::uint32_t p = 0; p < ends.size(); ++p) {
         const std::uint32_t c = clusters.of_point[p];
-        const auto distance = [&](std::uint32_t q) { return glm::distance(ends[q], clusters.centers[c]); };
+        const auto distance = [&](std::uint32_t q) {
+            return glm::distance(ends[q], clusters.centers[c]);
+        };
         if (best[c] == kNone || distance(p) < distance(best[c])) best[c] = p;
     }
     for (std::size_t c = 0; c < best.size(); ++c) clusters.centers[c] = ends[best[c]];
@@ -53,14 +57,16 @@ void flatten(const CurveGraph& graph, const SeedSpread& spread, SolidSkeleton& o
             if (number[n] < number[other]) out.edges.emplace_back(number[n], number[other]);
         }
     }
-    std::sort(out.edges.begin(), out.edges.end(),
-              [](const glm::uvec2& l, const glm::uvec2& r) { return l.x != r.x ? l.x < r.x : l.y < r.y; });
+    std::sort(out.edges.begin(), out.edges.end(), [](const glm::uvec2& l, const glm::uvec2& r) {
+        return l.x != r.x ? l.x < r.x : l.y < r.y;
+    });
 }
 
 }  // namespace
 
 SolidSkeleton extract_by_newton(const Surface& surface, bool is_closed, VisibilitySource& source,
-                                const NewtonMethodOptions& options, const MethodProgress& progress) {
+                                const NewtonMethodOptions& options,
+                                const MethodProgress& progress) {
     SolidSkeleton out;
     progress.begin("seeds");
     const SurfaceQuery query(surface);
@@ -78,7 +84,9 @@ SolidSkeleton extract_by_newton(const Surface& surface, bool is_closed, Visibili
     if (is_closed) {
         std::string why;
         handles = find_handles(surface, inner, why);
-        if (!handles) out.warnings.push_back(fmt::format("cycles cannot be told from wrong connections: {}", why));
+        if (!handles)
+            out.warnings.push_back(
+                fmt::format("cycles cannot be told from wrong connections: {}", why));
     }
     out.expected_cycles = handles ? handles->genus : 0;
 
@@ -89,7 +97,8 @@ SolidSkeleton extract_by_newton(const Surface& surface, bool is_closed, Visibili
     for (const Vec3& end : ends) {
         radii.push_back(query.nearest(end).distance);
         const double wanted = options.cluster_radii * static_cast<double>(radii.back());
-        ranges.push_back(static_cast<float>(std::clamp(wanted, options.min_cluster_world, options.max_cluster_world)));
+        ranges.push_back(static_cast<float>(
+            std::clamp(wanted, options.min_cluster_world, options.max_cluster_world)));
     }
     const std::vector<Shortcut> shortcuts = find_shortcuts(ends, links, radii, ranges);
     std::vector<glm::uvec2> joints = links;
@@ -98,16 +107,20 @@ SolidSkeleton extract_by_newton(const Surface& surface, bool is_closed, Visibili
     for (int attempt = 0;; ++attempt) {
         Clusters clusters = cluster_minima(ends, joints, ranges);
         center_on_members(clusters, ends);
-        const ClusterContext context{surface, query, spread, out.settled, inner, links, shortcuts, clusters};
+        const ClusterContext context{surface, query, spread,    out.settled,
+                                     inner,   links, shortcuts, clusters};
         bool enough = false;
         const std::vector<Connection> connections = connect_network(context, handles, enough);
         if (!enough && attempt < options.max_retries) {
             for (float& range : ranges) range *= 0.5f;
             continue;
         }
-        if (!enough) out.warnings.emplace_back("a handle is smaller than the clusters: a cycle is missing");
-        const auto unfree = std::count_if(connections.begin(), connections.end(), [](const Connection& c) { return !c.is_inside; });
-        if (unfree > 0) out.warnings.push_back(fmt::format("{} connections could not be laid inside", unfree));
+        if (!enough)
+            out.warnings.emplace_back("a handle is smaller than the clusters: a cycle is missing");
+        const auto unfree = std::count_if(connections.begin(), connections.end(),
+                                          [](const Connection& c) { return !c.is_inside; });
+        if (unfree > 0)
+            out.warnings.push_back(fmt::format("{} connections could not be laid inside", unfree));
         graph = build_graph(context, connections);
         break;
     }

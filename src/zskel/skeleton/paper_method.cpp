@@ -4,8 +4,8 @@
 
 namespace zskel {
 
-SolidSkeleton extract_by_paper(const Surface& surface, VisibilitySource& source, const PaperMethodOptions& options,
-                               const MethodProgress& progress) {
+SolidSkeleton extract_by_paper(const Surface& surface, VisibilitySource& source,
+                               const PaperMethodOptions& options, const MethodProgress& progress) {
     SolidSkeleton out;
     progress.begin("seeds");
     const SurfaceQuery query(surface);

@@ -26,10 +26,13 @@ void unlink(CurveGraph& graph, std::uint32_t a, std::uint32_t b) {
     unlink_one(graph.nodes[b].links, a);
 }
 
-bool is_branch_end(const Node& node) { return node.links.size() != 2; }
+bool is_branch_end(const Node& node) {
+    return node.links.size() != 2;
+}
 
 // Nodes from `first` over `second` to the next end or junction, or round to `first`.
-std::vector<std::uint32_t> walk(const CurveGraph& graph, std::uint32_t first, std::uint32_t second) {
+std::vector<std::uint32_t> walk(const CurveGraph& graph, std::uint32_t first,
+                                std::uint32_t second) {
     std::vector<std::uint32_t> path{first, second};
     while (!is_branch_end(graph.nodes[path.back()]) && path.back() != first) {
         const auto& links = graph.nodes[path.back()].links;
@@ -47,7 +50,8 @@ std::vector<std::vector<std::uint32_t>> branches_of(const CurveGraph& graph) {
         if (node.is_removed || !is_branch_end(node)) continue;
         for (const std::uint32_t next : node.links) {
             std::vector<std::uint32_t> path = walk(graph, n, next);
-            const bool is_mirror = path.back() < n || (path.back() == n && path[1] > path[path.size() - 2]);
+            const bool is_mirror =
+                path.back() < n || (path.back() == n && path[1] > path[path.size() - 2]);
             for (const std::uint32_t p : path) seen[p] = true;
             if (!is_mirror) out.push_back(std::move(path));
         }
@@ -78,9 +82,13 @@ void give_seeds(CurveGraph& graph, std::uint32_t from, std::uint32_t to) {
 
 class Refiner {
   public:
-    Refiner(CurveGraph& graph, std::span<const Vec3> seed_points, const SurfaceQuery& query, VisibilitySource& source,
-            const RefineOptions& options)
-        : graph_(graph), seed_points_(seed_points), query_(query), source_(source), options_(options) {}
+    Refiner(CurveGraph& graph, std::span<const Vec3> seed_points, const SurfaceQuery& query,
+            VisibilitySource& source, const RefineOptions& options)
+        : graph_(graph),
+          seed_points_(seed_points),
+          query_(query),
+          source_(source),
+          options_(options) {}
 
     RefineReport run() {
         merge_junctions();
@@ -100,21 +108,24 @@ class Refiner {
   private:
     bool free_between(const Vec3& a, const Vec3& b) const { return !query_.first_hit(a, b); }
 
-    // The least of what a limb has to have, each over its bound; below 1 the branch is a spur: its surface sticks
-    // out of the inscribed balls of the rest of the skeleton, by its own thickness and by some share of the
-    // junction's, and it has some length.
+    // The least of what a limb has to have, each over its bound; below 1 the branch is a spur: its
+    // surface sticks out of the inscribed balls of the rest of the skeleton, by its own thickness
+    // and by some share of the junction's, and it has some length.
     double limb_measure(const std::vector<std::uint32_t>& path) const {
         std::vector<bool> in_branch(graph_.nodes.size(), false);
         for (std::size_t i = 1; i < path.size(); ++i) in_branch[path[i]] = true;
-        const double junction_radius = static_cast<double>(std::max(graph_.nodes[path.front()].radius, 1e-9f));
+        const double junction_radius =
+            static_cast<double>(std::max(graph_.nodes[path.front()].radius, 1e-9f));
         double sticks_out = 0.0;
         for (std::size_t i = 1; i < path.size(); ++i) {
             const Node& node = graph_.nodes[path[i]];
             for (const std::uint32_t s : node.seeds) {
                 const double beyond = distance_beyond(seed_points_[s], in_branch);
                 const double own = static_cast<double>(std::max(node.radius, 1e-9f));
-                sticks_out = std::max(sticks_out, std::min(beyond / (options_.least_own_radii * own),
-                                                           beyond / (options_.least_junction_radii * junction_radius)));
+                sticks_out =
+                    std::max(sticks_out,
+                             std::min(beyond / (options_.least_own_radii * own),
+                                      beyond / (options_.least_junction_radii * junction_radius)));
             }
         }
         const double length = static_cast<double>(length_of(graph_, path)) / junction_radius;
@@ -127,7 +138,8 @@ class Refiner {
         for (std::uint32_t n = 0; n < graph_.nodes.size(); ++n) {
             const Node& node = graph_.nodes[n];
             if (node.is_removed || left_out[n]) continue;
-            least = std::min(least, static_cast<double>(glm::distance(point, node.position) - node.radius));
+            least = std::min(
+                least, static_cast<double>(glm::distance(point, node.position) - node.radius));
         }
         return least;
     }
@@ -158,13 +170,15 @@ class Refiner {
         }
     }
 
-    // A lone branch that is short against its own radius is no limb: it becomes the node of greatest radius.
+    // A lone branch that is short against its own radius is no limb: it becomes the node of
+    // greatest radius.
     void shrink_blob(const std::vector<std::uint32_t>& path) {
-        const std::uint32_t center = *std::max_element(path.begin(), path.end(), [&](auto l, auto r) {
-            return graph_.nodes[l].radius < graph_.nodes[r].radius;
-        });
+        const std::uint32_t center = *std::max_element(
+            path.begin(), path.end(),
+            [&](auto l, auto r) { return graph_.nodes[l].radius < graph_.nodes[r].radius; });
         const double radius = options_.detail * static_cast<double>(graph_.nodes[center].radius);
-        if (static_cast<double>(length_of(graph_, path)) >= options_.least_length_radii * radius) return;
+        if (static_cast<double>(length_of(graph_, path)) >= options_.least_length_radii * radius)
+            return;
         ++report_.pruned_branches;
         report_.pruned_length_world += static_cast<double>(length_of(graph_, path));
         for (std::size_t i = 1; i < path.size(); ++i) unlink(graph_, path[i - 1], path[i]);
@@ -185,14 +199,17 @@ class Refiner {
         }
     }
 
-    // Two junctions become one, the one with the greater radius, when the other's neighbours can be joined to it.
+    // Two junctions become one, the one with the greater radius, when the other's neighbours can be
+    // joined to it.
     void merge_junctions() {
         bool changed = true;
         while (changed) {
             changed = false;
             for (const std::vector<std::uint32_t>& branch : branches_of(graph_)) {
                 if (branch.front() == branch.back()) continue;
-                if (graph_.nodes[branch.front()].links.size() < 3 || graph_.nodes[branch.back()].links.size() < 3) continue;
+                if (graph_.nodes[branch.front()].links.size() < 3 ||
+                    graph_.nodes[branch.back()].links.size() < 3)
+                    continue;
                 if (try_merge(branch)) {
                     ++report_.merged_junctions;
                     changed = true;
@@ -213,8 +230,10 @@ class Refiner {
         unlink_one(moved, last);
         for (const std::uint32_t n : moved) {
             const auto& kept = graph_.nodes[keep].links;
-            const bool is_double = n == keep || std::find(kept.begin(), kept.end(), n) != kept.end();
-            if (is_double || !free_between(graph_.nodes[n].position, graph_.nodes[keep].position)) return false;
+            const bool is_double =
+                n == keep || std::find(kept.begin(), kept.end(), n) != kept.end();
+            if (is_double || !free_between(graph_.nodes[n].position, graph_.nodes[keep].position))
+                return false;
         }
         for (std::size_t i = 1; i < branch.size(); ++i) unlink(graph_, branch[i - 1], branch[i]);
         for (const std::uint32_t n : branch) {
@@ -229,7 +248,8 @@ class Refiner {
         return true;
     }
 
-    // An end goes on straight ahead, or to the farthest of its own surface when that lies farther ahead.
+    // An end goes on straight ahead, or to the farthest of its own surface when that lies farther
+    // ahead.
     void extend_ends() {
         const std::size_t count = graph_.nodes.size();
         for (std::uint32_t n = 0; n < count; ++n) {
@@ -243,7 +263,8 @@ class Refiner {
             for (const std::uint32_t s : node.seeds) {
                 const Vec3 way = seed_points_[s] - node.position;
                 const bool is_ahead = glm::dot(way, ahead) > 0.8f * glm::length(way);
-                if (is_ahead && glm::length(way) > glm::distance(tip, node.position)) tip = seed_points_[s];
+                if (is_ahead && glm::length(way) > glm::distance(tip, node.position))
+                    tip = seed_points_[s];
             }
             extend_to(n, tip);
         }
@@ -254,7 +275,8 @@ class Refiner {
         const std::vector<std::uint32_t> path = walk(graph_, end, graph_.nodes[end].links[0]);
         std::size_t i = 1;
         while (i + 1 < path.size() &&
-               glm::distance(graph_.nodes[path[i]].position, graph_.nodes[end].position) < graph_.nodes[end].radius) {
+               glm::distance(graph_.nodes[path[i]].position, graph_.nodes[end].position) <
+                   graph_.nodes[end].radius) {
             ++i;
         }
         return graph_.nodes[path[i]].position;
@@ -276,10 +298,12 @@ class Refiner {
     }
 
     double spacing_at(float radius) const {
-        return std::clamp(static_cast<double>(radius), options_.min_spacing_world, options_.max_spacing_world);
+        return std::clamp(static_cast<double>(radius), options_.min_spacing_world,
+                          options_.max_spacing_world);
     }
 
-    // New nodes along every branch, as far apart as the local radius says; the seeds go to the nearest of them.
+    // New nodes along every branch, as far apart as the local radius says; the seeds go to the
+    // nearest of them.
     void resample() {
         for (const std::vector<std::uint32_t>& branch : branches_of(graph_)) {
             std::vector<Vec3> line;
@@ -291,7 +315,8 @@ class Refiner {
                 seeds.insert(seeds.end(), node.seeds.begin(), node.seeds.end());
                 node.is_removed = true;
             }
-            for (std::size_t i = 1; i < branch.size(); ++i) unlink(graph_, branch[i - 1], branch[i]);
+            for (std::size_t i = 1; i < branch.size(); ++i)
+                unlink(graph_, branch[i - 1], branch[i]);
             lay_nodes(branch.front(), branch.back(), line, seeds);
         }
     }
@@ -310,21 +335,25 @@ class Refiner {
         for (std::size_t i = 1; i < chain.size(); ++i) link(graph_, chain[i - 1], chain[i]);
         for (const std::uint32_t s : seeds) {
             const Vec3& p = seed_points_[s];
-            const std::uint32_t nearest = *std::min_element(chain.begin(), chain.end(), [&](auto l, auto r) {
-                return glm::distance(graph_.nodes[l].position, p) < glm::distance(graph_.nodes[r].position, p);
-            });
+            const std::uint32_t nearest =
+                *std::min_element(chain.begin(), chain.end(), [&](auto l, auto r) {
+                    return glm::distance(graph_.nodes[l].position, p) <
+                           glm::distance(graph_.nodes[r].position, p);
+                });
             graph_.nodes[nearest].seeds.push_back(s);
         }
     }
 
-    // A ring needs three nodes and the second of two branches between the same junctions one of its own.
+    // A ring needs three nodes and the second of two branches between the same junctions one of its
+    // own.
     int needed_pieces(std::uint32_t first, std::uint32_t last) const {
         const auto& links = graph_.nodes[first].links;
         if (first == last) return 3;
         return std::find(links.begin(), links.end(), last) != links.end() ? 2 : 1;
     }
 
-    // Points within the line, one local spacing apart. Corners stay where the shortcut past them is not free.
+    // Points within the line, one local spacing apart. Corners stay where the shortcut past them is
+    // not free.
     std::vector<Vec3> even_points(const std::vector<Vec3>& line, int least_pieces) const {
         float length = 0.0f;
         for (std::size_t i = 1; i < line.size(); ++i) length += glm::distance(line[i - 1], line[i]);
@@ -333,7 +362,8 @@ class Refiner {
         Vec3 at = line.front();
         std::size_t next = 1;
         while (true) {
-            const float spacing = std::min(longest, static_cast<float>(spacing_at(query_.nearest(at).distance)));
+            const float spacing =
+                std::min(longest, static_cast<float>(spacing_at(query_.nearest(at).distance)));
             Vec3 here = at;
             float left = spacing;
             std::size_t segment = next;
@@ -341,10 +371,15 @@ class Refiner {
                 left -= glm::distance(here, line[segment]);
                 here = line[segment++];
             }
-            const bool is_last = segment >= line.size() || (segment + 1 == line.size() &&
-                                 glm::distance(here, line.back()) < left + 0.5f * spacing && points.size() + 1 >= static_cast<std::size_t>(least_pieces));
-            Vec3 target = is_last ? line.back() : here + (line[segment] - here) * (left / glm::distance(here, line[segment]));
-            if (!free_between(at, target) && next < line.size() - (is_last ? 1 : 0) && line[next] != at && segment > next) {
+            const bool is_last = segment >= line.size() ||
+                                 (segment + 1 == line.size() &&
+                                  glm::distance(here, line.back()) < left + 0.5f * spacing &&
+                                  points.size() + 1 >= static_cast<std::size_t>(least_pieces));
+            Vec3 target = is_last ? line.back()
+                                  : here + (line[segment] - here) *
+                                               (left / glm::distance(here, line[segment]));
+            if (!free_between(at, target) && next < line.size() - (is_last ? 1 : 0) &&
+                line[next] != at && segment > next) {
                 target = line[next++];
                 points.push_back(at = target);
                 continue;
@@ -355,8 +390,8 @@ class Refiner {
         }
     }
 
-    // One pass over all nodes within branches: towards where the force across the branch vanishes, and towards the
-    // middle of the neighbours. A move that would leave the solid is not made.
+    // One pass over all nodes within branches: towards where the force across the branch vanishes,
+    // and towards the middle of the neighbours. A move that would leave the solid is not made.
     void sweep(double centring) {
         std::vector<std::uint32_t> moving;
         std::vector<Vec3> eyes;
@@ -371,12 +406,14 @@ class Refiner {
             report_.evaluations += eyes.size();
         }
         std::vector<Vec3> targets;
-        for (std::size_t i = 0; i < moving.size(); ++i) targets.push_back(target_of(graph_.nodes[moving[i]], records[i], centring));
+        for (std::size_t i = 0; i < moving.size(); ++i)
+            targets.push_back(target_of(graph_.nodes[moving[i]], records[i], centring));
         for (std::size_t i = 0; i < moving.size(); ++i) {
             Node& node = graph_.nodes[moving[i]];
-            const bool stays = std::all_of(node.links.begin(), node.links.end(), [&](std::uint32_t n) {
-                return free_between(graph_.nodes[n].position, targets[i]);
-            });
+            const bool stays =
+                std::all_of(node.links.begin(), node.links.end(), [&](std::uint32_t n) {
+                    return free_between(graph_.nodes[n].position, targets[i]);
+                });
             if (stays) node.position = targets[i];
         }
     }
@@ -388,10 +425,13 @@ class Refiner {
         const DVec3 here(node.position);
         DVec3 move = (middle - here) * options_.smoothing;
         if (node.links.size() == 2 && centring > 0.0) {
-            const DVec3 chord(graph_.nodes[node.links[1]].position - graph_.nodes[node.links[0]].position);
-            if (glm::length(chord) > 0.0) move += across_step(met, glm::normalize(chord)) * centring;
+            const DVec3 chord(graph_.nodes[node.links[1]].position -
+                              graph_.nodes[node.links[0]].position);
+            if (glm::length(chord) > 0.0)
+                move += across_step(met, glm::normalize(chord)) * centring;
         } else if (node.links.size() > 2) {
-            move *= 0.3;  // a junction is held by its branches; the smoothing alone would drag it to the longest
+            move *= 0.3;  // a junction is held by its branches; the smoothing alone would drag it
+                          // to the longest
         }
         const double longest = options_.longest_move_spacing * spacing_at(node.radius);
         const double length = glm::length(move);
@@ -438,7 +478,8 @@ class Refiner {
 CurveGraph build_graph(const ClusterContext& context, const std::vector<Connection>& connections) {
     CurveGraph graph;
     graph.nodes.resize(context.clusters.centers.size());
-    for (std::size_t n = 0; n < graph.nodes.size(); ++n) graph.nodes[n].position = context.clusters.centers[n];
+    for (std::size_t n = 0; n < graph.nodes.size(); ++n)
+        graph.nodes[n].position = context.clusters.centers[n];
     for (std::uint32_t s = 0; s < context.clusters.of_point.size(); ++s) {
         graph.nodes[context.clusters.of_point[s]].seeds.push_back(s);
     }
@@ -457,7 +498,8 @@ CurveGraph build_graph(const ClusterContext& context, const std::vector<Connecti
     return graph;
 }
 
-RefineReport refine_graph(CurveGraph& graph, std::span<const Vec3> seed_points, const SurfaceQuery& query, VisibilitySource& source,
+RefineReport refine_graph(CurveGraph& graph, std::span<const Vec3> seed_points,
+                          const SurfaceQuery& query, VisibilitySource& source,
                           const RefineOptions& options) {
     return Refiner(graph, seed_points, query, source, options).run();
 }

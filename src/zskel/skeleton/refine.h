@@ -12,28 +12,28 @@ namespace zskel {
 struct CurveGraph {
     struct Node {
         Vec3 position{0.0f};
-        float radius = 0.0f;                    ///< inscribed
-        std::vector<std::uint32_t> links;       ///< neighbours
-        std::vector<std::uint32_t> seeds;       ///< that came to rest here: their surface belongs to it
+        float radius = 0.0f;               ///< inscribed
+        std::vector<std::uint32_t> links;  ///< neighbours
+        std::vector<std::uint32_t> seeds;  ///< that came to rest here: their surface belongs to it
         bool is_removed = false;
     };
     std::vector<Node> nodes;
 };
 
 struct RefineOptions {
-    double detail = 1.0;                ///< scales what counts as a limb: below 1 more spurs stay, above 1 fewer
-    double least_own_radii = 1.5;       ///< a branch goes when its surface sticks out of the rest's inscribed
-                                        ///< balls by less than this many of its own radii,
-    double least_junction_radii = 0.35; ///< or of its junction's,
-    double least_length_radii = 0.8;    ///< or is shorter than this many of its junction's
-    double merge_radii = 0.5;           ///< junctions nearer than this become one
-    double tip_gap_radii = 0.5;         ///< ends are extended to this distance from the tip
-    double min_spacing_world = 0.004;   ///< of nodes; between these bounds it is the radius
+    double detail = 1.0;  ///< scales what counts as a limb: below 1 more spurs stay, above 1 fewer
+    double least_own_radii = 1.5;  ///< a branch goes when its surface sticks out of the rest's
+                                   ///< inscribed balls by less than this many of its own radii,
+    double least_junction_radii = 0.35;  ///< or of its junction's,
+    double least_length_radii = 0.8;     ///< or is shorter than this many of its junction's
+    double merge_radii = 0.5;            ///< junctions nearer than this become one
+    double tip_gap_radii = 0.5;          ///< ends are extended to this distance from the tip
+    double min_spacing_world = 0.004;    ///< of nodes; between these bounds it is the radius
     double max_spacing_world = 0.02;
-    int smoothing_sweeps = 12;          ///< before, of smoothing alone
-    int sweeps = 6;                     ///< of centring and smoothing
-    double centring = 0.5;              ///< share of the Newton step across the branch that a sweep takes
-    double smoothing = 0.5;             ///< share of the way to the middle of the neighbours
+    int smoothing_sweeps = 12;  ///< before, of smoothing alone
+    int sweeps = 6;             ///< of centring and smoothing
+    double centring = 0.5;      ///< share of the Newton step across the branch that a sweep takes
+    double smoothing = 0.5;     ///< share of the way to the middle of the neighbours
     double longest_move_spacing = 0.3;  ///< in a sweep
 };
 
@@ -48,10 +48,11 @@ struct RefineReport {
 /// Nodes at the clusters' centres and along the connections' paths.
 CurveGraph build_graph(const ClusterContext& context, const std::vector<Connection>& connections);
 
-/// Prunes spurs, merges junctions, extends ends to the tips, and centres and smooths the branches. No segment that
-/// was free is left unfree, and cycles stay.
+/// Prunes spurs, merges junctions, extends ends to the tips, and centres and smooths the branches.
+/// No segment that was free is left unfree, and cycles stay.
 /// @param seed_points  where every seed's vertex is on the surface.
-RefineReport refine_graph(CurveGraph& graph, std::span<const Vec3> seed_points, const SurfaceQuery& query,
-                          VisibilitySource& source, const RefineOptions& options);
+RefineReport refine_graph(CurveGraph& graph, std::span<const Vec3> seed_points,
+                          const SurfaceQuery& query, VisibilitySource& source,
+                          const RefineOptions& options);
 
 }  // namespace zskel

@@ -19,14 +19,17 @@ std::vector<float> vertex_thickness(const Surface& surface, const SurfaceQuery& 
         for (std::size_t v = begin; v < end; ++v) {
             const Vec3& vertex = surface.positions[v];
             const Vec3 inward = -surface.vertex_normals[v];
-            const auto hit = query.first_hit(vertex + inward * kClearOfVertex, vertex + inward * kLongestChord);
-            thickness[v] = hit ? std::max(hit->fraction * kLongestChord, kClearOfVertex) : kLongestChord;
+            const auto hit =
+                query.first_hit(vertex + inward * kClearOfVertex, vertex + inward * kLongestChord);
+            thickness[v] =
+                hit ? std::max(hit->fraction * kLongestChord, kClearOfVertex) : kLongestChord;
         }
     });
     return thickness;
 }
 
-std::vector<Vec3> inner_points(const Surface& surface, std::span<const float> thickness, const SeedOptions& options) {
+std::vector<Vec3> inner_points(const Surface& surface, std::span<const float> thickness,
+                               const SeedOptions& options) {
     std::vector<Vec3> points;
     points.reserve(thickness.size());
     for (std::size_t v = 0; v < thickness.size(); ++v) {
@@ -37,7 +40,8 @@ std::vector<Vec3> inner_points(const Surface& surface, std::span<const float> th
     return points;
 }
 
-std::vector<Seed> place_seeds(const Surface& surface, const SurfaceQuery& query, const SeedOptions& options) {
+std::vector<Seed> place_seeds(const Surface& surface, const SurfaceQuery& query,
+                              const SeedOptions& options) {
     std::vector<Seed> seeds;
     seeds.reserve(surface.positions.size());
     for (const Vec3& point : inner_points(surface, vertex_thickness(surface, query), options)) {

@@ -20,15 +20,17 @@ struct SeedOptions {
     double max_offset_thickness = 0.4;  ///< but no more than this share of the thickness there
 };
 
-/// The free way straight in from every vertex, along the reverse of its normal: the local thickness.
-/// Nowhere more than a few times the model's size, also where nothing is met.
+/// The free way straight in from every vertex, along the reverse of its normal: the local
+/// thickness. Nowhere more than a few times the model's size, also where nothing is met.
 std::vector<float> vertex_thickness(const Surface& surface, const SurfaceQuery& query);
 
 /// The point just inside every vertex. A vertex without a normal keeps its own position.
 /// @see Wu et al. 2003, section 4.1; the bound by the local thickness is ours.
-std::vector<Vec3> inner_points(const Surface& surface, std::span<const float> thickness, const SeedOptions& options);
+std::vector<Vec3> inner_points(const Surface& surface, std::span<const float> thickness,
+                               const SeedOptions& options);
 
 /// One seed inside each vertex.
-std::vector<Seed> place_seeds(const Surface& surface, const SurfaceQuery& query, const SeedOptions& options);
+std::vector<Seed> place_seeds(const Surface& surface, const SurfaceQuery& query,
+                              const SeedOptions& options);
 
 }  // namespace zskel

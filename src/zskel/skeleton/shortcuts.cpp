@@ -9,8 +9,9 @@ namespace zskel {
 namespace {
 
 // A breadth-first walk from one seed over those that ended in its ball.
-std::vector<Shortcut> shortcuts_of(std::uint32_t first, std::span<const Vec3> ends, const VertexGraph& graph,
-                                   float radius, std::span<const float> ranges) {
+std::vector<Shortcut> shortcuts_of(std::uint32_t first, std::span<const Vec3> ends,
+                                   const VertexGraph& graph, float radius,
+                                   std::span<const float> ranges) {
     std::vector<std::uint32_t> reached{first};
     std::vector<std::uint32_t> from{0};
     std::vector<std::uint32_t> depth{0};
@@ -27,7 +28,8 @@ std::vector<Shortcut> shortcuts_of(std::uint32_t first, std::span<const Vec3> en
             const bool is_near = glm::distance(ends[first], ends[next]) <= range;
             if (depth.back() < 2 || next < first || !is_near) continue;
             Shortcut shortcut;
-            for (std::size_t k = reached.size() - 1; k != 0; k = from[k]) shortcut.walk.push_back(reached[k]);
+            for (std::size_t k = reached.size() - 1; k != 0; k = from[k])
+                shortcut.walk.push_back(reached[k]);
             shortcut.walk.push_back(first);
             std::reverse(shortcut.walk.begin(), shortcut.walk.end());
             out.push_back(std::move(shortcut));

@@ -8,11 +8,12 @@
 
 namespace zskel {
 
-/// Two seeds that came to rest close together though their patches on the surface do not meet: the near and the far
-/// side of a limb. Every end on the walk between them lies in the inscribed ball at the first end, so going by
-/// the walk or straight across is the same to the solid's topology.
+/// Two seeds that came to rest close together though their patches on the surface do not meet: the
+/// near and the far side of a limb. Every end on the walk between them lies in the inscribed ball
+/// at the first end, so going by the walk or straight across is the same to the solid's topology.
 struct Shortcut {
-    std::vector<std::uint32_t> walk;   ///< seeds, each a neighbour of the one before; first and last are joined
+    std::vector<std::uint32_t>
+        walk;  ///< seeds, each a neighbour of the one before; first and last are joined
 };
 
 /// @param links   pairs of seeds whose patches meet.

@@ -13,7 +13,9 @@ namespace {
 class Spreader {
   public:
     Spreader(const Surface& surface, std::span<const float> thickness)
-        : surface_(surface), thickness_(thickness), graph_(surface.positions.size(), surface.edges),
+        : surface_(surface),
+          thickness_(thickness),
+          graph_(surface.positions.size(), surface.edges),
           distance_(surface.positions.size(), kInfinity) {
         out_.seed_of.assign(surface.positions.size(), kNone);
         out_.parent.assign(surface.positions.size(), kNone);
@@ -40,7 +42,8 @@ class Spreader {
         }
     }
 
-    // The vertex that is farthest from every seed; stale entries of the queue are put right as they come up.
+    // The vertex that is farthest from every seed; stale entries of the queue are put right as they
+    // come up.
     std::uint32_t farthest() {
         if (far_.empty()) {
             for (std::uint32_t v = 0; v < distance_.size(); ++v) far_.emplace(distance_[v], ~v);
@@ -65,7 +68,8 @@ class Spreader {
     }
 
     float length(std::uint32_t a, std::uint32_t b) const {
-        return 2.0f * glm::distance(surface_.positions[a], surface_.positions[b]) / (thickness_[a] + thickness_[b]);
+        return 2.0f * glm::distance(surface_.positions[a], surface_.positions[b]) /
+               (thickness_[a] + thickness_[b]);
     }
 
     const Surface& surface_;
@@ -78,11 +82,13 @@ class Spreader {
 
 }  // namespace
 
-SeedSpread spread_seeds(const Surface& surface, std::span<const float> thickness, const SpreadOptions& options) {
+SeedSpread spread_seeds(const Surface& surface, std::span<const float> thickness,
+                        const SpreadOptions& options) {
     Spreader spreader(surface, thickness);
     const std::size_t vertices = surface.positions.size();
-    const std::size_t most =
-        options.max_seeds <= 0 ? vertices : std::min(vertices, static_cast<std::size_t>(options.max_seeds));
+    const std::size_t most = options.max_seeds <= 0
+                                 ? vertices
+                                 : std::min(vertices, static_cast<std::size_t>(options.max_seeds));
     std::uint32_t next = 0;
     std::size_t count = 0;
     // Parts that no front has reached come first, whatever the limit: their distance is infinite.

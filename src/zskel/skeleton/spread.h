@@ -10,22 +10,26 @@ namespace zskel {
 
 /// Which vertices carry a seed, and which seed every other vertex belongs to.
 struct SeedSpread {
-    std::vector<std::uint32_t> vertices;   ///< one a seed, in the order in which they were chosen
-    std::vector<std::uint32_t> seed_of;    ///< of every vertex: the seed nearest along the surface
-    std::vector<std::uint32_t> parent;     ///< of every vertex: the next one on its way to its seed; itself at one
-    double spacing_thickness = 0.0;        ///< what is left: the largest distance to a seed over the thickness there
+    std::vector<std::uint32_t> vertices;  ///< one a seed, in the order in which they were chosen
+    std::vector<std::uint32_t> seed_of;   ///< of every vertex: the seed nearest along the surface
+    std::vector<std::uint32_t>
+        parent;  ///< of every vertex: the next one on its way to its seed; itself at one
+    double spacing_thickness =
+        0.0;  ///< what is left: the largest distance to a seed over the thickness there
 };
 
 struct SpreadOptions {
-    int max_seeds = 1000;                  ///< 0: every vertex
-    double spacing_thickness = 0.0;        ///< stop when every vertex is nearer to a seed than this many
-                                           ///< thicknesses; 0: never before max_seeds
+    int max_seeds = 1000;            ///< 0: every vertex
+    double spacing_thickness = 0.0;  ///< stop when every vertex is nearer to a seed than this many
+                                     ///< thicknesses; 0: never before max_seeds
 };
 
-/// Farthest-point sampling along the surface's edges, distances divided by the thickness there, so that thin limbs
-/// are not passed over. Every component gets a seed. O((n log n) log k) on even meshes for k seeds of n vertices.
+/// Farthest-point sampling along the surface's edges, distances divided by the thickness there, so
+/// that thin limbs are not passed over. Every component gets a seed. O((n log n) log k) on even
+/// meshes for k seeds of n vertices.
 /// @param thickness  of every vertex, world units, positive.
 /// @see Eldar et al. 1997 for farthest points; the weight is ours.
-SeedSpread spread_seeds(const Surface& surface, std::span<const float> thickness, const SpreadOptions& options);
+SeedSpread spread_seeds(const Surface& surface, std::span<const float> thickness,
+                        const SpreadOptions& options);
 
 }  // namespace zskel

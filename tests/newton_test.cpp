@@ -1,0 +1,214 @@
+#include <doctest/doctest.h>
+
+#include <cmath>
+
+#include "support/shapes.h"
+#include "zskel/core/parallel.h"
+#include "zskel/extract.h"
+#include "zskel/io/skeleton_json.h"
+#include "zskel/mesh/homology.h"
+#include "zskel/mesh/solid.h"
+#include "zskel/skeleton/spread.h"
+#include "zskel/visibility/cube_map.h"
+#include "zskel/visibility/ray_source.h"
+#include "zskel/visibility/surface_query.h"
+
+using namespace zskel;
+
+namespace {
+
+ExtractResult extract(const Mesh& mesh, const ExtractOptions& options = {}) {
+    BackendOptions backend_options;
+    backend_options.kind = BackendKind::Ray;
+    backend_options.face_px = 8;
+    return extract_skeleton(mesh, options, *open_backend(backend_options));
+}
+
+std::size_t count_ends(const SkeletonGraph& graph) {
+    const auto degrees = node_degrees(graph);
+    return static_cast<std::size_t>(std::count(degrees.begin(), degrees.end(), 1u));
+}
+
+// Share of points, spread along the edges, that lie inside.
+double inside_share(const ExtractResult& result) {
+    const SurfaceQuery query(result.surface);
+    std::size_t inside = 0;
+    std::size_t all = 0;
+    for (const SkeletonGraph::Edge& edge : result.graph.edges) {
+        const DVec3& a = result.graph.nodes[edge.source].position;
+        const DVec3& b = result.graph.nodes[edge.target].position;
+        for (int k = 0; k < 8; ++k) {
+            const Vec3 p = result.surface.world_from_model.to_world(a + (b - a) * (k / 8.0));
+            inside += query.winding_number(p) > 0.5 ? 1 : 0;
+            ++all;
+        }
+    }
+    return all == 0 ? 1.0 : static_cast<double>(inside) / static_cast<double>(all);
+}
+
+std::vector<Vec3> inner_of(const Surface& surface) {
+    const SurfaceQuery query(surface);
+    return inner_points(surface, vertex_thickness(surface, query), {});
+}
+
+}  // namespace
+
+TEST_CASE("newton: a ball and a cube are one node at the centre") {
+    for (const Mesh& mesh :
+         {test::sphere(0.5, 3),
+          test::subdivided(test::subdivided(test::cube(), [](auto p) { return p; }),
+                           [](auto p) { return p; })}) {
+        const ExtractResult result = extract(mesh);
+        REQUIRE(result.graph.nodes.size() == 1);
+        CHECK(glm::length(result.graph.nodes[0].position) < 0.02);
+        CHECK(result.graph.nodes[0].radius == doctest::Approx(0.5).epsilon(0.05));
+    }
+}
+
+TEST_CASE("newton: a cylinder is one branch along its axis, to near its ends") {
+    const ExtractResult result = extract(test::cylinder(0.1, 1.0, 32, 33));
+    CHECK(count_ends(result.graph) == 2);
+    CHECK(graph_topology(result.graph).cycles == 0);
+    double low = 1.0;
+    double high = -1.0;
+    for (const SkeletonGraph::Node& node : result.graph.nodes) {
+        CHECK(std::hypot(node.position.x, node.position.y) < 0.01);
+        low = std::min(low, node.position.z);
+        high = std::max(high, node.position.z);
+    }
+    CHECK(low < -0.4);
+    CHECK(high > 0.4);
+}
+
+TEST_CASE("newton: a long tapered cone keeps its whole axis") {
+    Mesh cone = test::capped_rings(
+        65, 24, [](int i) { return DVec3(0, 0, i / 64.0); },
+        [](int i, double angle) {
+            const double radius = 0.12 - 0.1 * i / 64.0;
+            return DVec3(radius * std::cos(angle), radius * std::sin(angle), i / 64.0);
+        });
+    const ExtractResult result = extract(cone);
+    CHECK(count_ends(result.graph) == 2);
+    double low = 1.0;
+    double high = 0.0;
+    for (const SkeletonGraph::Node& node : result.graph.nodes) {
+        low = std::min(low, node.position.z);
+        high = std::max(high, node.position.z);
+    }
+    CHECK(low < 0.12);
+    CHECK(high > 0.95);
+}
+
+TEST_CASE("newton: a torus is one cycle without ends, inside and centred") {
+    const ExtractResult result = extract(test::torus());
+    CHECK(graph_topology(result.graph).components == 1);
+    CHECK(graph_topology(result.graph).cycles == 1);
+    CHECK(result.statistics.expected_cycles == 1);
+    CHECK(count_ends(result.graph) == 0);
+    CHECK(inside_share(result) == 1.0);
+    for (const SkeletonGraph::Node& node : result.graph.nodes) {
+        CHECK(std::hypot(node.position.x, node.position.y) == doctest::Approx(0.35).epsilon(0.05));
+    }
+    CHECK(result.warnings.empty());
+}
+
+TEST_CASE("newton: two linked tori are two cycles, each its own") {
+    Mesh turned = test::torus();
+    for (DVec3& p : turned.positions) p = DVec3(p.x + 0.35, p.z, -p.y);
+    const ExtractResult result = extract(test::together(test::torus(), turned));
+    CHECK(result.statistics.solids == 2);
+    CHECK(graph_topology(result.graph).components == 2);
+    CHECK(graph_topology(result.graph).cycles == 2);
+}
+
+TEST_CASE("newton: a torus-shaped cavity in a ball gives one cycle, a ball-shaped one none") {
+    const Mesh ball = test::sphere(0.5, 4);
+    const ExtractResult ring = extract(test::together(ball, test::torus(0.25, 0.08)));
+    CHECK(ring.statistics.cavities == 1);
+    CHECK(graph_topology(ring.graph).cycles == 1);
+    CHECK(graph_topology(ring.graph).components == 1);
+    const ExtractResult hollow = extract(test::together(ball, test::sphere(0.2, 3)));
+    CHECK(hollow.statistics.cavities == 1);
+    CHECK(graph_topology(hollow.graph).cycles == 0);
+    CHECK(graph_topology(hollow.graph).components == 1);
+}
+
+TEST_CASE("newton: at most about five evaluations a seed on a tube") {
+    const ExtractResult result = extract(test::torus());
+    std::size_t sum = 0;
+    for (const SeedReport& seed : result.seeds) sum += seed.evaluations;
+    CHECK(static_cast<double>(sum) <= 5.0 * static_cast<double>(result.seeds.size()));
+}
+
+TEST_CASE("newton: the same at one thread and at many") {
+    set_thread_limit(1);
+    const ExtractResult one = extract(test::torus(0.35, 0.12, 32, 16));
+    set_thread_limit(0);
+    const ExtractResult many = extract(test::torus(0.35, 0.12, 32, 16));
+    CHECK(skeleton_obj(one.graph) == skeleton_obj(many.graph));
+    CHECK(one.graph.vertex_node == many.graph.vertex_node);
+}
+
+TEST_CASE(
+    "spread_seeds: every vertex has a seed that its parents lead to, and none is far from one") {
+    const PreparedSurface prepared = prepare_surface(test::torus());
+    const std::vector<float> even(prepared.surface.positions.size(), 1.0f);
+    const SeedSpread spread = spread_seeds(prepared.surface, even, {100, 0.0});
+    CHECK(spread.vertices.size() == 100);
+    for (std::uint32_t v = 0; v < spread.seed_of.size(); ++v) {
+        std::uint32_t at = v;
+        while (spread.parent[at] != at) at = spread.parent[at];
+        CHECK(at == spread.vertices[spread.seed_of[v]]);
+    }
+    // The area is 4 pi^2 R r = 1.66 of the model's units (0.94 to a world unit): 100 cells of 0.14
+    // across.
+    CHECK(spread.spacing_thickness < 0.25);
+    CHECK(spread_seeds(prepared.surface, even, {0, 0.0}).vertices.size() == even.size());
+}
+
+TEST_CASE("find_handles: a torus has one class, 1 round the hole and 0 round the tube") {
+    const PreparedSurface prepared = prepare_surface(test::torus(0.35, 0.12, 32, 16));
+    const Surface& surface = prepared.surface;
+    std::string why;
+    const auto handles = find_handles(surface, inner_of(surface), why);
+    REQUIRE(handles.has_value());
+    CHECK(handles->genus == 1);
+    const auto class_along = [&](const std::vector<std::uint32_t>& loop) {
+        int sum = 0;
+        for (std::size_t i = 0; i < loop.size(); ++i) {
+            const std::uint32_t a = loop[i];
+            const std::uint32_t b = loop[(i + 1) % loop.size()];
+            for (std::size_t e = 0; e < surface.edges.size(); ++e) {
+                if (surface.edges[e] == glm::uvec2(std::min(a, b), std::max(a, b))) {
+                    sum += (a < b ? 1 : -1) * handles->edge_class[e];
+                }
+            }
+        }
+        return sum;
+    };
+    std::vector<std::uint32_t> round_hole;
+    for (std::uint32_t i = 0; i < 32; ++i) round_hole.push_back(prepared.surface_vertex[i * 16]);
+    std::vector<std::uint32_t> round_tube;
+    for (std::uint32_t k = 0; k < 16; ++k) round_tube.push_back(prepared.surface_vertex[k]);
+    CHECK(std::abs(class_along(round_hole)) == 1);
+    CHECK(class_along(round_tube) == 0);
+}
+
+TEST_CASE("find_handles: an open surface has no answer, and says why") {
+    Mesh open = test::cube();
+    open.triangles.pop_back();
+    const PreparedSurface prepared = prepare_surface(open);
+    std::string why;
+    CHECK_FALSE(find_handles(prepared.surface, inner_of(prepared.surface), why).has_value());
+    CHECK_FALSE(why.empty());
+}
+
+TEST_CASE("is_primitive: parts of integer bases, and what only spans a sublattice") {
+    CHECK(is_primitive({{1, 0, 0}}));
+    CHECK(is_primitive({{2, 3}}));
+    CHECK(is_primitive({{2, 3}, {1, 1}}));
+    CHECK_FALSE(is_primitive({{2, 0}}));
+    CHECK_FALSE(is_primitive({{0, 0}}));
+    CHECK_FALSE(is_primitive({{1, 1}, {1, -1}}));
+    CHECK_FALSE(is_primitive({{1, 2}, {2, 4}}));
+}
