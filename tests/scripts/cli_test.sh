@@ -183,8 +183,10 @@ cannot_write() {
 case_cannot_write() {
     refused 5 'none/a.json' extract cube.obj "${fast[@]}" -o none/a.json
     refused 5 '.' extract cube.obj "${fast[@]}" -o .
-    refused 5 '/dev/full' extract cube.obj "${fast[@]}" -o /dev/full
-    [[ -c /dev/full ]] || fail "the device was replaced"
+    # By a link, so that a program that replaces what it should write to cannot take the system's device.
+    ln -s /dev/full full
+    refused 5 'full' extract cube.obj "${fast[@]}" -o full
+    [[ -c full ]] || fail "the device was replaced"
     refused 5 'none/a.png' extract cube.obj "${fast[@]}" --picture none/a.png
     local arguments code
     for arguments in "extract cube.obj ${fast[*]}" 'check cube.obj' 'check cube.obj --json' 'doctor' '--help' '--version'; do
@@ -480,7 +482,9 @@ png = open("a.png", "rb").read()
 assert png[:8] == b"\x89PNG\r\n\x1a\n" and struct.unpack(">II", png[16:24]) == (64, 48)
 END
     done
-    refused 5 '/dev/full' extract cube.obj "${fast[@]}" -o a.json --picture /dev/full
+    ln -s /dev/full full
+    refused 5 'full' extract cube.obj "${fast[@]}" -o a.json --picture full
+    [[ -c full ]] || fail "the device was replaced"
     # Without EGL: OSMesa answers where it is installed, and nothing that was asked for by name is replaced.
     export __EGL_VENDOR_LIBRARY_FILENAMES=/nonexistent
     refused 4 'egl' extract cube.obj --backend egl -o b.json
