@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 #include "zskel/mesh/solid.h"
@@ -192,6 +193,97 @@ SourceComparison compare_backends(const Mesh& mesh, Backend& tested, Backend& re
         tally.add(*a, *b, comparison_eyes(solid.surface, *b, count, options));
     }
     return tally.finish();
+}
+
+namespace {
+
+constexpr int kSamplesPerEdge = 16;
+
+std::vector<DVec3> points_along(const SkeletonGraph& graph) {
+    std::vector<DVec3> points;
+    const auto degrees = node_degrees(graph);
+    for (std::size_t n = 0; n < graph.nodes.size(); ++n) {
+        if (degrees[n] == 0) points.push_back(graph.nodes[n].position);
+    }
+    double length = 0.0;
+    for (const SkeletonGraph::Edge& e : graph.edges) {
+        length += glm::distance(graph.nodes[e.source].position, graph.nodes[e.target].position);
+    }
+    // Even along the whole curve, about kSamplesPerEdge on an edge of mean length.
+    const double spacing =
+        length / (kSamplesPerEdge * std::max(1.0, static_cast<double>(graph.edges.size())));
+    for (const SkeletonGraph::Edge& e : graph.edges) {
+        const DVec3& a = graph.nodes[e.source].position;
+        const DVec3& b = graph.nodes[e.target].position;
+        const int pieces = std::max(
+            1, static_cast<int>(std::ceil(glm::distance(a, b) / std::max(spacing, 1e-300))));
+        for (int k = 0; k < pieces; ++k) points.push_back(glm::mix(a, b, (k + 0.5) / pieces));
+    }
+    return points;
+}
+
+double distance_to(const DVec3& p, const SkeletonGraph& graph) {
+    double least = std::numeric_limits<double>::infinity();
+    for (const SkeletonGraph::Node& node : graph.nodes)
+        least = std::min(least, glm::distance(p, node.position));
+    for (const SkeletonGraph::Edge& e : graph.edges) {
+        const DVec3& a = graph.nodes[e.source].position;
+        const DVec3 along = graph.nodes[e.target].position - a;
+        const double length2 = glm::dot(along, along);
+        const double t =
+            length2 > 0.0 ? std::clamp(glm::dot(p - a, along) / length2, 0.0, 1.0) : 0.0;
+        least = std::min(least, glm::distance(p, a + t * along));
+    }
+    return least;
+}
+
+double mean_one_way(const SkeletonGraph& from, const SkeletonGraph& to) {
+    const std::vector<DVec3> points = points_along(from);
+    if (points.empty()) return to.nodes.empty() ? 0.0 : std::numeric_limits<double>::infinity();
+    double sum = 0.0;
+    for (const DVec3& p : points) sum += distance_to(p, to);
+    return sum / static_cast<double>(points.size());
+}
+
+double diagonal_of(const Surface& surface) {
+    Vec3 low(kInfinity);
+    Vec3 high(-kInfinity);
+    for (const Vec3& p : surface.positions) {
+        low = glm::min(low, p);
+        high = glm::max(high, p);
+    }
+    return surface.world_from_model.length_to_model(static_cast<double>(glm::distance(low, high)));
+}
+
+}  // namespace
+
+double mean_distance(const SkeletonGraph& a, const SkeletonGraph& b) {
+    return 0.5 * (mean_one_way(a, b) + mean_one_way(b, a));
+}
+
+SkeletonComparison compare_skeletons(const ExtractResult& tested, const ExtractResult& reference,
+                                     double tolerance) {
+    SkeletonComparison out;
+    out.seeds = std::min(tested.seeds.size(), reference.seeds.size());
+    for (std::size_t s = 0; s < out.seeds; ++s) {
+        if (!(glm::distance(tested.seeds[s].end, reference.seeds[s].end) <= tolerance)) {
+            out.parted.push_back(reference.seeds[s].vertex);
+        }
+    }
+    out.nodes_tested = tested.graph.nodes.size();
+    out.nodes_reference = reference.graph.nodes.size();
+    out.mean_distance_diagonals =
+        mean_distance(tested.graph, reference.graph) / diagonal_of(reference.surface);
+    return out;
+}
+
+bool is_within(const SkeletonComparison& comparison, const SkeletonBounds& bounds) {
+    const auto reference = static_cast<double>(comparison.nodes_reference);
+    const double apart = std::abs(static_cast<double>(comparison.nodes_tested) - reference);
+    return static_cast<double>(comparison.parted.size()) <=
+               bounds.parted_share * static_cast<double>(comparison.seeds) &&
+           apart <= bounds.node_share * reference &&
+           comparison.mean_distance_diagonals <= bounds.mean_distance_diagonals;
 }
 
 }  // namespace zskel

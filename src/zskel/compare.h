@@ -70,4 +70,30 @@ SourceComparison compare_sources(VisibilitySource& tested, VisibilitySource& ref
 SourceComparison compare_backends(const Mesh& mesh, Backend& tested, Backend& reference, int eyes,
                                   const ExtractOptions& options);
 
+/// How far two skeletons of one mesh by the same method differ. The paper's stop rule is touchy, so
+/// single seeds may part company where two ways are equally good.
+struct SkeletonComparison {
+    std::size_t seeds = 0;
+    std::vector<std::uint32_t> parted;  ///< vertices whose seeds end more than the tolerance apart
+    std::size_t nodes_tested = 0;
+    std::size_t nodes_reference = 0;
+    double mean_distance_diagonals =
+        0.0;  ///< between the curves, both ways, over the model's diagonal
+};
+struct SkeletonBounds {
+    double parted_share = 0.05;
+    double node_share = 0.1;
+    double mean_distance_diagonals = 0.005;
+};
+bool is_within(const SkeletonComparison& comparison, const SkeletonBounds& bounds);
+
+/// @param tolerance  how far apart ends of one seed may be, model units.
+SkeletonComparison compare_skeletons(const ExtractResult& tested, const ExtractResult& reference,
+                                     double tolerance);
+
+/// Mean distance from points spread along one skeleton to the other, averaged both ways, model
+/// units. A node without edges counts as a point. 0 for two empty graphs, infinite when only one
+/// is.
+double mean_distance(const SkeletonGraph& a, const SkeletonGraph& b);
+
 }  // namespace zskel

@@ -16,6 +16,7 @@ struct Arguments {
     std::string model;
     int eyes = 48;
     bool as_json = false;
+    std::string method;
     BackendOptions tested;
     BackendKind reference = BackendKind::Ray;
 };
@@ -84,6 +85,43 @@ std::string to_text(const SourceComparison& c, const ComparisonBounds& bounds) {
     return text;
 }
 
+Json to_json(const SkeletonComparison& c, const SkeletonBounds& bounds) {
+    return {{"seeds", c.seeds},
+            {"parted_seeds", c.parted.size()},
+            {"parted_vertices", c.parted},
+            {"nodes", {{"tested", c.nodes_tested}, {"reference", c.nodes_reference}}},
+            {"mean_distance_diagonals", c.mean_distance_diagonals},
+            {"bounds",
+             {{"parted_share", bounds.parted_share},
+              {"node_share", bounds.node_share},
+              {"mean_distance_diagonals", bounds.mean_distance_diagonals}}},
+            {"within_bounds", is_within(c, bounds)}};
+}
+
+std::string to_text(const SkeletonComparison& c, const SkeletonBounds& bounds) {
+    std::string text = fmt::format(
+        "skeletons: {} and {} nodes, {:.5f} of the diagonal apart in the mean\n"
+        "seeds that end more than two steps apart: {} of {}",
+        c.nodes_tested, c.nodes_reference, c.mean_distance_diagonals, c.parted.size(), c.seeds);
+    for (std::size_t i = 0; i < c.parted.size(); ++i) {
+        text += fmt::format("{}{}", i == 0 ? ", at vertices " : ", ", c.parted[i]);
+    }
+    return text + fmt::format("\n{} (bounds: {:.0f} % of seeds, {:.0f} % of nodes, distance {})\n",
+                              is_within(c, bounds) ? "within bounds" : "NOT within bounds",
+                              100 * bounds.parted_share, 100 * bounds.node_share,
+                              bounds.mean_distance_diagonals);
+}
+
+// The whole method with both backends, end points held against each other at two of the paper's
+// steps.
+SkeletonComparison compare_extracts(const Mesh& mesh, const ExtractOptions& options,
+                                    Backend& tested, Backend& reference) {
+    const ExtractResult a = extract_skeleton(mesh, options, tested);
+    const ExtractResult b = extract_skeleton(mesh, options, reference);
+    const double two_steps = 2.0 * options.paper.steps.step_world;
+    return compare_skeletons(a, b, b.surface.world_from_model.length_to_model(two_steps));
+}
+
 ExitCode compare(const Arguments& arguments) {
     const Mesh mesh = read_mesh(arguments.model);
     const auto tested = open_backend(arguments.tested);
@@ -91,19 +129,27 @@ ExitCode compare(const Arguments& arguments) {
     reference_options.kind = arguments.reference;
     reference_options.face_px = arguments.tested.face_px;
     const auto reference = open_backend(reference_options);
-    const SourceComparison c = compare_backends(mesh, *tested, *reference, arguments.eyes, {});
-    const ComparisonBounds bounds;
-    if (arguments.as_json) {
-        Json out = to_json(c, bounds);
-        out["tested"] = tested->info().name;
-        out["reference"] = reference->info().name;
-        print(out.dump(2) + "\n");
+    Json out{{"model", arguments.model},
+             {"tested", tested->info().name},
+             {"reference", reference->info().name}};
+    std::string text = fmt::format("{}: {} against {}\n", arguments.model, tested->info().name,
+                                   reference->info().name);
+    bool is_fine = false;
+    if (arguments.method.empty()) {
+        const SourceComparison c = compare_backends(mesh, *tested, *reference, arguments.eyes, {});
+        is_fine = is_within(c, ComparisonBounds{});
+        out.update(to_json(c, ComparisonBounds{}));
+        text += to_text(c, ComparisonBounds{});
     } else {
-        print(fmt::format("{}: {} against {}\n", arguments.model, tested->info().name,
-                          reference->info().name) +
-              to_text(c, bounds));
+        ExtractOptions options;
+        options.method = parse_method(arguments.method);
+        const SkeletonComparison c = compare_extracts(mesh, options, *tested, *reference);
+        is_fine = is_within(c, SkeletonBounds{});
+        out.update(to_json(c, SkeletonBounds{}));
+        text += to_text(c, SkeletonBounds{});
     }
-    return is_within(c, bounds) ? ExitCode::Ok : ExitCode::Check;
+    print(arguments.as_json ? out.dump(2) + "\n" : text);
+    return is_fine ? ExitCode::Ok : ExitCode::Check;
 }
 
 }  // namespace
@@ -119,6 +165,10 @@ void add_compare_command(CLI::App& app, const Common&, Run& run) {
                      "About this many eyes: starts, mid-paths and ends of seeds")
         ->capture_default_str()
         ->check(CLI::Range(1, 1 << 20));
+    command
+        ->add_option("--method", arguments->method,
+                     "Compare the skeletons by this method instead: seeds, nodes, distance")
+        ->check(CLI::IsMember({"newton", "paper"}));
     command->add_flag("--json", arguments->as_json, "Print JSON");
     add_backend_options(*command, arguments->tested);
     command
