@@ -30,7 +30,8 @@ Force force_at(const Directions& directions, const MapView& map) {
     Force out;
     for (std::size_t i = 0; i < directions.size(); ++i) {
         if (!std::isfinite(map.distance[i])) continue;
-        const double share = directions.weight[i] / std::max<double>(map.distance[i], kLeastDistance);
+        const double share =
+            directions.weight[i] / std::max<double>(map.distance[i], kLeastDistance);
         out.vector -= share * directions.unit[i];
         out.mean_inverse_distance += share;
         out.hit_fraction += directions.weight[i];
