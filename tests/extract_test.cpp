@@ -119,10 +119,12 @@ TEST_CASE("skeleton_json: holds nodes, edges, vertex map, statistics and provena
     options.paper.steps.keep_paths = true;
     const ExtractResult result = extract_by_rays(mesh, options);
     Provenance provenance;
+    provenance.options = options;
     provenance.model = "a \"quoted\"\nname.obj";
     const auto json = nlohmann::json::parse(skeleton_json(result, provenance, {true, true}));
     CHECK(json["format"] == "zskel-skeleton");
     CHECK(json["version"] == 1);
+    CHECK(json["provenance"]["options"]["method"] == "paper");
     CHECK(json["nodes"].size() == result.graph.nodes.size());
     CHECK(json["nodes"][0]["position"][2] == result.graph.nodes[0].position.z);
     CHECK(json["edges"].size() == result.graph.edges.size());

@@ -170,8 +170,8 @@ Method parse_method(std::string_view name) {
     throw UsageError(fmt::format("unknown method '{}': newton or paper", name));
 }
 
-std::string_view name_of(Method) {
-    return "paper";
+std::string_view name_of(Method method) {
+    return method == Method::Newton ? "newton" : "paper";
 }
 
 double ExtractStatistics::seconds() const {

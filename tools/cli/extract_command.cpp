@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
+#include <charconv>
 #include <cstdio>
 #include <nlohmann/json.hpp>
 
@@ -30,7 +31,19 @@ struct Arguments {
     JsonParts parts;
     ExtractOptions extract;
     BackendOptions backend;
+    std::vector<CLI::Option*> newton_only;  // to refuse with the other method
+    std::vector<CLI::Option*> paper_only;
 };
+
+int parse_seeds(const std::string& text) {
+    if (text == "all") return 0;
+    int value = 0;
+    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+    if (error != std::errc() || end != text.data() + text.size() || value < 1) {
+        throw UsageError(fmt::format("--seeds {}: give a number from 1, or all", text));
+    }
+    return value;
+}
 
 // One line that is drawn over itself; on a terminal only.
 class ProgressBar {
@@ -98,9 +111,21 @@ void draw_pictures(const Arguments& arguments, const ExtractResult& result, gl::
               draw_paths(context, result.surface, paths, nodes, arguments.picture_options), title);
 }
 
+void check_method_options(const Arguments& arguments) {
+    const bool is_paper = arguments.extract.method == Method::Paper;
+    for (const CLI::Option* option : is_paper ? arguments.newton_only : arguments.paper_only) {
+        if (option->count() == 0) continue;
+        throw UsageError(fmt::format("{} goes with --method {}, not with {}", option->get_name(),
+                                     is_paper ? "newton" : "paper",
+                                     name_of(arguments.extract.method)));
+    }
+}
+
 ExitCode extract(const Arguments& given, const Common& common) {
+    check_method_options(given);
     Arguments arguments = given;
-    arguments.extract.paper.steps.keep_paths = arguments.parts.paths || !arguments.picture_paths.empty();
+    arguments.extract.paper.steps.keep_paths =
+        arguments.parts.paths || !arguments.picture_paths.empty();
     if (arguments.output.empty())
         throw UsageError("--output needs a name, or - for standard output");
     check_outputs(arguments.model, {arguments.output, arguments.picture, arguments.picture_paths});
@@ -133,6 +158,66 @@ ExitCode extract(const Arguments& given, const Common& common) {
     return ExitCode::Ok;
 }
 
+// Options that only one method has; given with another they would mean nothing, which is an error.
+void add_method_options(CLI::App& command, Arguments& arguments) {
+    PaperMethodOptions& paper = arguments.extract.paper;
+    NewtonMethodOptions& newton = arguments.extract.newton;
+    constexpr const char* kNewton = "Method newton";
+    constexpr const char* kPaper = "Method paper";
+    arguments.newton_only = {
+        command
+            .add_option_function<std::string>(
+                "--seeds",
+                [&newton](const std::string& text) { newton.spread.max_seeds = parse_seeds(text); },
+                "How many seeds are spread over the surface, or all: one a vertex [1000]")
+            ->type_name("N|all")
+            ->group(kNewton),
+        command
+            .add_option(
+                "--detail", newton.refine.detail,
+                "How far a limb must stick out to be kept: below 1 more of them, above 1 fewer")
+            ->capture_default_str()
+            ->check(CLI::Range(0.01, 100.0))
+            ->group(kNewton),
+    };
+    arguments.paper_only = {
+        command.add_option("--step", paper.steps.step_world, "Length of a step, in the unit cube")
+            ->capture_default_str()
+            ->check(positive_length())
+            ->group(kPaper),
+        command
+            .add_option("--max-steps", paper.steps.max_steps, "Steps after which a seed is stopped")
+            ->capture_default_str()
+            ->check(CLI::Range(1, 1 << 30))
+            ->group(kPaper),
+        command
+            .add_option("--offset", paper.seeds.offset_world,
+                        "How far inside the surface seeds start, in the unit cube")
+            ->capture_default_str()
+            ->check(positive_length())
+            ->group(kPaper),
+        command
+            .add_option("--cluster", paper.clusters.range_world,
+                        "Range within which end points become one node, in the unit cube")
+            ->capture_default_str()
+            ->check(length_or_zero())
+            ->group(kPaper),
+    };
+    arguments.paper_only.push_back(
+        command
+            .add_option("--dump-depth", arguments.depth_folder,
+                        "Write the cube maps along seeds' paths into this folder (EXR)")
+            ->group(kPaper));
+    arguments.paper_only.push_back(
+        command
+            .add_option(
+                "--dump-vertices", arguments.depth_vertices,
+                "Of the seeds of these input vertices, V,V,...; by default of eight spread evenly")
+            ->delimiter(',')
+            ->needs(arguments.paper_only.back())
+            ->group(kPaper));
+}
+
 }  // namespace
 
 void add_extract_command(CLI::App& app, const Common& common, Run& run) {
@@ -157,23 +242,7 @@ void add_extract_command(CLI::App& app, const Common& common, Run& run) {
             "newton: Newton steps, right topology, refined; paper: the published method [newton]")
         ->type_name("NAME");
     add_backend_options(*command, arguments->backend);
-    ExtractOptions& o = arguments->extract;
-    command->add_option("--step", o.paper.steps.step_world, "Length of a step, in the unit cube")
-        ->capture_default_str()
-        ->check(positive_length());
-    command->add_option("--max-steps", o.paper.steps.max_steps, "Steps after which a seed is stopped")
-        ->capture_default_str()
-        ->check(CLI::Range(1, 1 << 30));
-    command
-        ->add_option("--offset", o.paper.seeds.offset_world,
-                     "How far inside the surface seeds start, in the unit cube")
-        ->capture_default_str()
-        ->check(positive_length());
-    command
-        ->add_option("--cluster", o.paper.clusters.range_world,
-                     "Range within which end points become one node, in the unit cube")
-        ->capture_default_str()
-        ->check(length_or_zero());
+    add_method_options(*command, *arguments);
     command->add_flag("--with-seeds", arguments->parts.seeds,
                       "Add every seed's start, end, state and steps to the JSON");
     command->add_flag("--with-paths", arguments->parts.paths, "Add every seed's path too");
@@ -199,15 +268,10 @@ void add_extract_command(CLI::App& app, const Common& common, Run& run) {
     command->add_option("--picture-height", arguments->picture_options.height_px, "Pixels")
         ->capture_default_str()
         ->check(CLI::Range(16, 8192));
-    auto* dump =
-        command->add_option("--dump-depth", arguments->depth_folder,
-                            "Write the cube maps along seeds' paths into this folder (EXR)");
-    command
-        ->add_option(
-            "--dump-vertices", arguments->depth_vertices,
-            "Of the seeds of these input vertices, V,V,...; by default of eight spread evenly")
-        ->delimiter(',')
-        ->needs(dump);
+    command->footer(
+        "Examples:\n  zskel extract horse.obj -o horse.json --picture horse.png\n"
+        "  zskel extract horse.obj --method paper --backend ray --rays 197 --stats -o horse.json\n"
+        "  cat scan.ply | zskel extract - --detail 2 --format obj > scan.skeleton.obj");
     command->callback([&run, &common, arguments] {
         run = [&common, arguments] { return extract(*arguments, common); };
     });

@@ -3,6 +3,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <utility>
+#include <vector>
 
 #include <nlohmann/json.hpp>
 
@@ -141,19 +143,37 @@ Json seeds_json(const ExtractResult& result, const JsonParts& parts) {
     return seeds;
 }
 
+std::string text(const Json& value) {
+    return value.dump(-1, ' ', false, Json::error_handler_t::replace);
+}
+
+// An array with a line for each element.
+std::string rows(const Json& array) {
+    std::string out;
+    for (const Json& element : array)
+        out += fmt::format("{}\n {}", out.empty() ? "" : ",", text(element));
+    return fmt::format("[{}]", out);
+}
+
 }  // namespace
 
 std::string skeleton_json(const ExtractResult& result, const Provenance& provenance,
                           const JsonParts& parts) {
-    Json out{{"format", "zskel-skeleton"}, {"version", 1}};
-    out["nodes"] = nodes_json(result.graph);
-    out["edges"] = edges_json(result.graph);
-    out["vertex_node"] = vertex_node_json(result.graph);
-    out["statistics"] = statistics_json(result);
-    out["warnings"] = result.warnings;
-    out["provenance"] = provenance_json(provenance, result.surface.world_from_model);
-    if (parts.seeds || parts.paths) out["seeds"] = seeds_json(result, parts);
-    return out.dump(1, ' ', false, Json::error_handler_t::replace) + "\n";
+    std::vector<std::pair<std::string, std::string>> members{
+        {"format", "\"zskel-skeleton\""},
+        {"version", "1"},
+        {"nodes", rows(nodes_json(result.graph))},
+        {"edges", rows(edges_json(result.graph))},
+        {"vertex_node", text(vertex_node_json(result.graph))},
+        {"statistics", text(statistics_json(result))},
+        {"warnings", rows(Json(result.warnings))},
+        {"provenance", text(provenance_json(provenance, result.surface.world_from_model))}};
+    if (parts.seeds || parts.paths) members.emplace_back("seeds", rows(seeds_json(result, parts)));
+    std::string out;
+    for (const auto& [name, value] : members) {
+        out += fmt::format("{}\"{}\": {}", out.empty() ? "{\n" : ",\n", name, value);
+    }
+    return out + "\n}\n";
 }
 
 std::string skeleton_obj(const SkeletonGraph& graph) {
