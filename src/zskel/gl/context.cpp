@@ -327,6 +327,7 @@ std::vector<Diagnosis> diagnose_contexts(const ContextRequest& request) {
     std::vector<FailedAttempt> failed;
     std::vector<Diagnosis> found;
     const std::vector<Candidate> candidates = list_candidates(request, failed);
+    found.reserve(failed.size() + candidates.size());
     for (const FailedAttempt& attempt : failed)
         found.push_back({attempt.candidate, false, {}, attempt.reason});
     for (const Candidate& candidate : candidates) {

@@ -30,7 +30,7 @@ struct Cell {
     DVec3 forward;
 };
 const std::array<Cell, 6>& cells() {
-    static const std::array<Cell, 6> kAll{{
+    static const std::array<Cell, 6> all{{
         {0, 1, {0, 0, -1}, {0, 1, 0}, {-1, 0, 0}},
         {1, 1, {1, 0, 0}, {0, 1, 0}, {0, 0, -1}},
         {2, 1, {0, 0, 1}, {0, 1, 0}, {1, 0, 0}},
@@ -38,7 +38,7 @@ const std::array<Cell, 6>& cells() {
         {1, 0, {1, 0, 0}, {0, 0, 1}, {0, 1, 0}},
         {1, 2, {1, 0, 0}, {0, 0, -1}, {0, -1, 0}},
     }};
-    return kAll;
+    return all;
 }
 
 class Painter {

@@ -51,7 +51,7 @@ struct PreparedSurface {
 enum class WorldSize {
     UnitCube,  ///< the longest side of the bounding box is 1, its middle at 0 (the paper's)
     Spread,    ///< the area's root mean square distance from its centroid is kWorldSpread: the same
-             ///< however the model is turned, and about a unit cube for the shapes that one meets
+               ///< however the model is turned, and about a unit cube for the shapes that one meets
 };
 inline constexpr double kWorldSpread = 0.3;
 

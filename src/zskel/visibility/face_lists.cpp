@@ -4,17 +4,15 @@ namespace zskel {
 namespace {
 
 // Nine comparisons tell on which side of every face pyramid's planes a point lies.
-enum Code : unsigned {
-    kX = 1u << 0,  // x > 0
-    kY = 1u << 1,
-    kZ = 1u << 2,
-    kXOverY = 1u << 3,  // x > y
-    kXOverZ = 1u << 4,
-    kYOverZ = 1u << 5,
-    kXPlusY = 1u << 6,  // x + y > 0
-    kXPlusZ = 1u << 7,
-    kYPlusZ = 1u << 8,
-};
+constexpr unsigned kX = 1u << 0;  // x > 0
+constexpr unsigned kY = 1u << 1;
+constexpr unsigned kZ = 1u << 2;
+constexpr unsigned kXOverY = 1u << 3;  // x > y
+constexpr unsigned kXOverZ = 1u << 4;
+constexpr unsigned kYOverZ = 1u << 5;
+constexpr unsigned kXPlusY = 1u << 6;  // x + y > 0
+constexpr unsigned kXPlusZ = 1u << 7;
+constexpr unsigned kYPlusZ = 1u << 8;
 
 // A pyramid lies on the set side of some planes and on the clear side of others.
 struct Pyramid {

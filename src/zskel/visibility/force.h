@@ -39,9 +39,9 @@ struct EyeRecord {
     float nearest = kInfinity;        ///< least distance_radial
     float clearance = kInfinity;  ///< least distance ahead: r cos(a) over samples with cos(a) >=
                                   ///< 0.8 to the force
-    float back_fraction = 0.0f;  ///< share of the hits that see a triangle from behind; about 1
-                                 ///< inside a solid, below 1/2 outside
-    float hit_fraction = 0.0f;   ///< Force::hit_fraction
+    float back_fraction = 0.0f;   ///< share of the hits that see a triangle from behind; about 1
+                                  ///< inside a solid, below 1/2 outside
+    float hit_fraction = 0.0f;    ///< Force::hit_fraction
 };
 static_assert(sizeof(EyeRecord) == 52);
 
