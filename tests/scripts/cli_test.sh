@@ -366,7 +366,7 @@ case_output() {
     /usr/bin/python3 - <<'END' || fail "not as promised"
 import json, re
 first, second, one = (open(f + ".json").read() for f in ("first", "second", "one"))
-untimed = lambda text: re.sub(r'"seconds": \{[^}]*\}', "", text)
+untimed = lambda text: re.sub(r'"seconds": ?\{[^}]*\}', "", text)
 assert first != untimed(first)
 assert untimed(first) == untimed(second), "the same command twice gives different bytes"
 s, single, report = json.loads(first), json.loads(one), json.load(open("out"))
@@ -452,12 +452,12 @@ END
 case_check_failed() {
     run 0 compare cube.obj --backend ray --against brute --face-px 4 --eyes 4
     run 0 compare cube.obj --backend ray --against brute --face-px 4 --eyes 4 --json
-    grep -qF '"within_bounds": true' out || fail "not within bounds"
+    grep -qE '"within_bounds": ?true' out || fail "not within bounds"
     # A needle thinner than a float can tell: rays and the plain sum over triangles cannot agree.
     printf 'OFF\n4 4 0\n0 0 0\n1 0 0\n0 1 0\n0 0 1e-9\n3 0 2 1\n3 0 1 3\n3 0 3 2\n3 1 2 3\n' >needle.off
     run 6 compare needle.off --backend brute --against ray --face-px 8 --eyes 8
     run 6 compare needle.off --backend brute --against ray --face-px 8 --eyes 8 --json
-    grep -qF '"within_bounds": false' out || fail "the JSON does not say so"
+    grep -qE '"within_bounds": ?false' out || fail "the JSON does not say so"
 }
 
 case_gl_backends() {
@@ -492,7 +492,7 @@ END
     local code=0
     "$zskel" extract cube.obj --method paper --backend osmesa --face-px 4 --step 0.05 -o b.json 2>err || code=$?
     if ((code == 0)); then
-        grep -q '"name": "osmesa"' b.json || fail "asked for osmesa, got another"
+        grep -qE '"name": ?"osmesa"' b.json || fail "asked for osmesa, got another"
     else
         ((code == 4)) || fail "exit code $code"
     fi
