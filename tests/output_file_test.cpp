@@ -1,11 +1,13 @@
 #include "zskel/io/output_file.h"
 
 #include <doctest/doctest.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <filesystem>
 #include <fstream>
 #include <sstream>
+#include <thread>
 
 #include "zskel/core/error.h"
 
@@ -76,11 +78,15 @@ TEST_CASE("write_output_text: a folder that is not there is an error that names 
                          doctest::Contains("/nonexistent/zskel/a.json"), IoError);
 }
 
-TEST_CASE("write_output_text: a device is written to, never replaced; a link stays a link") {
-    write_output_text("/dev/null", "x");
-    CHECK(fs::is_character_file("/dev/null"));
-    CHECK_THROWS_AS(write_output_text("/dev/full", "x"), IoError);
+TEST_CASE("write_output_text: a pipe is written to, never replaced; a link stays a link") {
     const Folder folder;
+    REQUIRE(::mkfifo(folder.at("pipe").c_str(), 0600) == 0);
+    std::string read;
+    std::thread reader([&] { read = content(folder.at("pipe")); });
+    write_output_text(folder.at("pipe"), "through");
+    reader.join();
+    CHECK(read == "through");
+    CHECK(fs::is_fifo(folder.at("pipe")));
     write_output_text(folder.at("a.json"), "old");
     fs::create_symlink("a.json", folder.at("link.json"));
     write_output_text(folder.at("link.json"), "new");

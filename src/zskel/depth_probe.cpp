@@ -9,6 +9,11 @@
 #include "zskel/visibility/surface_query.h"
 
 namespace zskel {
+namespace {
+
+constexpr float kFarthestEye = 1000.0f;  // world units: model sizes
+
+}  // namespace
 
 // A solid, with what is prepared for it when it is first asked for.
 struct DepthProbe::Part {
@@ -29,6 +34,11 @@ DepthProbe::~DepthProbe() = default;
 
 DepthDump DepthProbe::at_point(const DVec3& eye_model) {
     const Vec3 eye = prepared_.surface.world_from_model.to_world(eye_model);
+    // Far outside, distances lose all precision; the bound also refuses what is not finite.
+    if (!(glm::length(eye) <= kFarthestEye)) {
+        throw UsageError(fmt::format("an eye at {} {} {} is more than {} model sizes away",
+                                     eye_model.x, eye_model.y, eye_model.z, kFarthestEye));
+    }
     const auto holds = [&](const std::unique_ptr<Part>& part) {
         return part->query.winding_number(eye) > 0.5;
     };

@@ -19,6 +19,7 @@ class DepthProbe {
     ~DepthProbe();
 
     /// The map seen from a point in model space, in the solid that holds it (else the nearest one).
+    /// @throws UsageError more than 1000 model sizes away.
     DepthDump at_point(const DVec3& eye_model);
 
     /// The maps along the path of the seed of an input vertex, start to rest: the very path that

@@ -13,6 +13,7 @@
 #include <ImfMatrixAttribute.h>
 #include <ImfOutputFile.h>
 #include <ImfStandardAttributes.h>
+#include <ImfStdIO.h>
 #include <ImfStringAttribute.h>
 #include <ImfVecAttribute.h>
 #include <fmt/format.h>
@@ -297,15 +298,16 @@ void write_depth_exr(const std::string& path, const DepthDump& dump) {
         data.id[pixels[i]] = dump.id[i];
     }
     const Imf::Header header = header_of(dump, face_bases(dump.face_px, pixels));
-    write_output_file(path, [&](const std::string& temporary) {
-        try {
-            Imf::OutputFile file(temporary.c_str(), header);
-            file.setFrameBuffer(data.frame_buffer(dump.face_px));
-            file.writePixels(6 * dump.face_px);
-        } catch (const std::exception& error) {
-            throw IoError(fmt::format("{}: cannot write: {}", path, error.what()));
-        }
-    });
+    // Through memory: an OutputFile of its own loses the errors of its last writes.
+    Imf::StdOSStream stream;
+    try {
+        Imf::OutputFile file(stream, header);
+        file.setFrameBuffer(data.frame_buffer(dump.face_px));
+        file.writePixels(6 * dump.face_px);
+    } catch (const std::exception& error) {
+        throw IoError(fmt::format("{}: cannot write: {}", path, error.what()));
+    }
+    write_output_text(path, stream.str());
 }
 
 DepthDump read_depth_exr(const std::string& path) {
