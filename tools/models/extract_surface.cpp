@@ -96,7 +96,7 @@ class Extraction {
     glm::dvec3 position(const glm::dvec3& corner) const { return corner * cell_ - kHalfSide; }
 
     std::uint64_t index(const Corner& c) const {
-        const auto n = static_cast<std::uint64_t>(side_ + 1);
+        const auto n = static_cast<std::uint64_t>(side_) + 1;
         return (static_cast<std::uint64_t>(c.z) * n + static_cast<std::uint64_t>(c.y)) * n +
                static_cast<std::uint64_t>(c.x);
     }
