@@ -297,9 +297,11 @@ class Refiner {
         ++report_.extended_ends;
     }
 
+    // Where there is hardly any thickness (open sheets), there is nothing to follow closely.
     double spacing_at(float radius) const {
-        return std::clamp(static_cast<double>(radius), options_.min_spacing_world,
-                          options_.max_spacing_world);
+        const auto r = static_cast<double>(radius);
+        if (r < 0.25 * options_.min_spacing_world) return options_.max_spacing_world;
+        return std::clamp(r, options_.min_spacing_world, options_.max_spacing_world);
     }
 
     // New nodes along every branch, as far apart as the local radius says; the seeds go to the
