@@ -246,6 +246,15 @@ TEST_CASE("write_depth_exr: Z is the distance along the face's axis") {
     std::filesystem::remove(path);
 }
 
+// Header::erase of OpenEXR 3.1 leaks the attribute.
+static void leave_out(Imf::Header& header, std::string_view name) {
+    Imf::Header kept;
+    for (auto at = header.begin(); at != header.end(); ++at) {
+        if (at.name() != name) kept.insert(at.name(), at.attribute());
+    }
+    header = kept;
+}
+
 TEST_CASE("read_depth_exr: what write_depth_exr would not have written is refused") {
     const std::string path = temporary("_good.exr");
     const std::string bad = temporary("_bad.exr");
@@ -253,12 +262,12 @@ TEST_CASE("read_depth_exr: what write_depth_exr would not have written is refuse
     write_changed(path, bad, [](Imf::Header&, std::vector<float>&) {});
     CHECK_NOTHROW(read_depth_exr(bad));
     const std::function<void(Imf::Header&, std::vector<float>&)> changes[] = {
-        [](Imf::Header& header, std::vector<float>&) { header.erase("envmap"); },
+        [](Imf::Header& header, std::vector<float>&) { leave_out(header, "envmap"); },
         [](Imf::Header& header, std::vector<float>&) {
             Imf::addEnvmap(header, Imf::ENVMAP_LATLONG);
         },
-        [](Imf::Header& header, std::vector<float>&) { header.erase("zskelEyeModel"); },
-        [](Imf::Header& header, std::vector<float>&) { header.erase("zskelModelFromWorld"); },
+        [](Imf::Header& header, std::vector<float>&) { leave_out(header, "zskelEyeModel"); },
+        [](Imf::Header& header, std::vector<float>&) { leave_out(header, "zskelModelFromWorld"); },
         [](Imf::Header& header, std::vector<float>&) {
             header.insert("zskelTexelCentre", Imf::StringAttribute("i / (n - 1)"));
         },
