@@ -7,11 +7,11 @@
 #include <cmath>
 
 #include "zskel/core/eigen3.h"
+#include "zskel/skeleton/walk.h"
 
 namespace zskel {
 namespace {
 
-constexpr float kLeastBackFraction = 0.5f;
 constexpr int kMaxHalvings = 4;
 
 // A seed on its way. `here` was accepted; `tried` waits to be looked from.
@@ -43,24 +43,13 @@ class NewtonWalk {
         }
     }
 
-    bool is_done() const { return walkers_.empty(); }
-    double done_share() const {
-        return 1.0 - static_cast<double>(walkers_.size()) / static_cast<double>(settled_.size());
+    std::vector<SettledSeed> run(VisibilitySource& source, const SettleProgress& progress) {
+        walk_to_rest(
+            source, walkers_,
+            [this](Walker& walker, const EyeRecord& met) { return advance(walker, met); },
+            progress);
+        return std::move(settled_);
     }
-
-    void round(VisibilitySource& source) {
-        eyes_.clear();
-        for (const Walker& walker : walkers_) eyes_.push_back(walker.tried);
-        records_.resize(eyes_.size());
-        source.look(eyes_, records_);
-        std::size_t kept = 0;
-        for (std::size_t i = 0; i < walkers_.size(); ++i) {
-            if (advance(walkers_[i], records_[i])) walkers_[kept++] = walkers_[i];
-        }
-        walkers_.resize(kept);
-    }
-
-    std::vector<SettledSeed> take() { return std::move(settled_); }
 
   private:
     // Judges what was met at `tried`; true when the walker goes on.
@@ -163,8 +152,6 @@ class NewtonWalk {
     const NewtonOptions& options_;
     std::vector<SettledSeed> settled_;
     std::vector<Walker> walkers_;
-    std::vector<Vec3> eyes_;
-    std::vector<EyeRecord> records_;
 };
 
 }  // namespace
@@ -172,12 +159,7 @@ class NewtonWalk {
 std::vector<SettledSeed> settle_seeds_newton(VisibilitySource& source, std::span<const Seed> seeds,
                                              const NewtonOptions& options,
                                              const SettleProgress& progress) {
-    NewtonWalk walk(seeds, options);
-    while (!walk.is_done()) {
-        walk.round(source);
-        if (progress) progress(walk.done_share());
-    }
-    return walk.take();
+    return NewtonWalk(seeds, options).run(source, progress);
 }
 
 }  // namespace zskel

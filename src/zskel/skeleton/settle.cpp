@@ -3,16 +3,15 @@
 #include <algorithm>
 #include <cmath>
 
+#include "zskel/skeleton/walk.h"
+
 namespace zskel {
 namespace {
 
-// An eye inside a solid sees its surface from behind.
-constexpr float kLeastBackFraction = 0.5f;
-
-// A seed on its way: `next` waits to be looked from, `force` was met at `seed.position`.
+// A seed on its way: `tried` waits to be looked from, `force` was met at `seed.position`.
 struct Walker {
     std::uint32_t index;
-    Vec3 next;
+    Vec3 tried;
     Vec3 force{0.0f};
     bool started = false;
 };
@@ -28,27 +27,16 @@ class PaperWalk {
         }
     }
 
-    bool is_done() const { return walkers_.empty(); }
-    double done_share() const {
-        return 1.0 - static_cast<double>(walkers_.size()) / static_cast<double>(settled_.size());
+    std::vector<SettledSeed> run(VisibilitySource& source, const SettleProgress& progress) {
+        walk_to_rest(
+            source, walkers_,
+            [this](Walker& walker, const EyeRecord& met) { return advance(walker, met); },
+            progress);
+        return std::move(settled_);
     }
-
-    void round(VisibilitySource& source) {
-        eyes_.clear();
-        for (const Walker& walker : walkers_) eyes_.push_back(walker.next);
-        records_.resize(eyes_.size());
-        source.look(eyes_, records_);
-        std::size_t kept = 0;
-        for (std::size_t i = 0; i < walkers_.size(); ++i) {
-            if (advance(walkers_[i], records_[i])) walkers_[kept++] = walkers_[i];
-        }
-        walkers_.resize(kept);
-    }
-
-    std::vector<SettledSeed> take() { return std::move(settled_); }
 
   private:
-    // Judges what the walker met at `next`; true when it goes on.
+    // Judges what the walker met at `tried`; true when it goes on.
     bool advance(Walker& walker, const EyeRecord& met) {
         SettledSeed& seed = settled_[walker.index];
         ++seed.evaluations;
@@ -61,14 +49,14 @@ class PaperWalk {
             if (strength > glm::length(walker.force)) return rest(seed, SeedState::Converged);
             ++seed.steps;
         }
-        seed.position = walker.next;
+        seed.position = walker.tried;
         if (options_.keep_paths) seed.path.push_back(seed.position);
         if (strength == 0.0f) return rest(seed, SeedState::Converged);
         if (seed.steps >= static_cast<std::uint32_t>(options_.max_steps))
             return rest(seed, SeedState::StepLimit);
         walker.started = true;
         walker.force = met.force;
-        walker.next =
+        walker.tried =
             seed.position + met.force / strength * static_cast<float>(options_.step_world);
         return true;
     }
@@ -81,8 +69,6 @@ class PaperWalk {
     const PaperStepOptions& options_;
     std::vector<SettledSeed> settled_;
     std::vector<Walker> walkers_;
-    std::vector<Vec3> eyes_;
-    std::vector<EyeRecord> records_;
 };
 
 }  // namespace
@@ -104,12 +90,7 @@ std::string_view name_of(SeedState state) {
 std::vector<SettledSeed> settle_seeds(VisibilitySource& source, std::span<const Seed> seeds,
                                       const PaperStepOptions& options,
                                       const SettleProgress& progress) {
-    PaperWalk walk(seeds, options);
-    while (!walk.is_done()) {
-        walk.round(source);
-        if (progress) progress(walk.done_share());
-    }
-    return walk.take();
+    return PaperWalk(seeds, options).run(source, progress);
 }
 
 }  // namespace zskel
