@@ -12,6 +12,7 @@
 #include <utility>
 
 #include "zskel/core/disjoint_sets.h"
+#include "zskel/core/edges.h"
 #include "zskel/core/parallel.h"
 #include "zskel/mesh/vertex_graph.h"
 
@@ -36,9 +37,8 @@ bool find_sides(const Surface& surface, EdgeSides& sides) {
             const std::uint32_t a = surface.triangles[t][k];
             const std::uint32_t b = surface.triangles[t][(k + 1) % 3];
             const glm::uvec2 wanted(std::min(a, b), std::max(a, b));
-            const auto at = std::lower_bound(
-                surface.edges.begin(), surface.edges.end(), wanted,
-                [](const auto& l, const auto& r) { return l.x != r.x ? l.x < r.x : l.y < r.y; });
+            const auto at =
+                std::lower_bound(surface.edges.begin(), surface.edges.end(), wanted, edge_before);
             const auto e = static_cast<std::uint32_t>(at - surface.edges.begin());
             std::uint32_t& side = a < b ? sides.left[e] : sides.right[e];
             if (side != kNone) return false;

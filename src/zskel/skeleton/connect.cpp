@@ -4,16 +4,9 @@
 #include <numeric>
 
 #include "zskel/core/disjoint_sets.h"
+#include "zskel/core/edges.h"
 
 namespace zskel {
-namespace {
-
-bool edge_before(const glm::uvec2& l, const glm::uvec2& r) {
-    return l.x != r.x ? l.x < r.x : l.y < r.y;
-}
-
-}  // namespace
-
 std::vector<glm::uvec2> connect_clusters(std::span<const std::uint32_t> cluster_of_point,
                                          std::span<const glm::uvec2> links) {
     std::vector<glm::uvec2> edges;
@@ -22,8 +15,7 @@ std::vector<glm::uvec2> connect_clusters(std::span<const std::uint32_t> cluster_
         const std::uint32_t b = cluster_of_point[link.y];
         if (a != b) edges.emplace_back(std::min(a, b), std::max(a, b));
     }
-    std::sort(edges.begin(), edges.end(), edge_before);
-    edges.erase(std::unique(edges.begin(), edges.end()), edges.end());
+    sort_edges(edges);
     return edges;
 }
 
@@ -41,7 +33,7 @@ std::vector<glm::uvec2> spanning_forest(std::span<const Vec3> centers,
     for (const std::uint32_t e : order) {
         if (sets.unite(edges[e].x, edges[e].y)) kept.push_back(edges[e]);
     }
-    std::sort(kept.begin(), kept.end(), edge_before);
+    sort_edges(kept);
     return kept;
 }
 

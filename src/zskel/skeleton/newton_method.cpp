@@ -2,28 +2,14 @@
 
 #include <algorithm>
 
+#include "zskel/core/edges.h"
+#include "zskel/skeleton/connect.h"
 #include "zskel/skeleton/method.h"
 #include "zskel/skeleton/network.h"
 #include "zskel/visibility/surface_query.h"
 
 namespace zskel {
 namespace {
-
-// Pairs of seeds whose patches meet.
-std::vector<glm::uvec2> seed_links(const Surface& surface, const SeedSpread& spread) {
-    std::vector<glm::uvec2> links;
-    for (const glm::uvec2& edge : surface.edges) {
-        const std::uint32_t a = spread.seed_of[edge.x];
-        const std::uint32_t b = spread.seed_of[edge.y];
-        if (a != b) links.emplace_back(std::min(a, b), std::max(a, b));
-    }
-    const auto before = [](const glm::uvec2& l, const glm::uvec2& r) {
-        return l.x != r.x ? l.x < r.x : l.y < r.y;
-    };
-    std::sort(links.begin(), links.end(), before);
-    links.erase(std::unique(links.begin(), links.end()), links.end());
-    return links;
-}
 
 // A mean of end points may lie outside; the end point nearest to it does not.
 void center_on_members(Clusters& clusters, std::span<const Vec3> ends) {
@@ -57,9 +43,7 @@ void flatten(const CurveGraph& graph, const SeedSpread& spread, SolidSkeleton& o
             if (number[n] < number[other]) out.edges.emplace_back(number[n], number[other]);
         }
     }
-    std::sort(out.edges.begin(), out.edges.end(), [](const glm::uvec2& l, const glm::uvec2& r) {
-        return l.x != r.x ? l.x < r.x : l.y < r.y;
-    });
+    std::sort(out.edges.begin(), out.edges.end(), edge_before);
 }
 
 }  // namespace
@@ -91,7 +75,8 @@ SolidSkeleton extract_by_newton(const Surface& surface, bool is_closed, Visibili
     out.expected_cycles = handles ? handles->genus : 0;
 
     progress.begin("connect");
-    const std::vector<glm::uvec2> links = seed_links(surface, spread);
+    // Pairs of seeds whose patches meet.
+    const std::vector<glm::uvec2> links = connect_clusters(spread.seed_of, surface.edges);
     std::vector<float> radii;
     std::vector<float> ranges;
     for (const Vec3& end : ends) {
