@@ -9,6 +9,7 @@
 
 #include "zskel/core/log.h"
 #include "zskel/mesh/solid.h"
+#include "zskel/skeleton/volumes.h"
 
 namespace zskel {
 namespace {
@@ -58,10 +59,13 @@ SolidSkeleton extract_solid(const Solid& solid, const ExtractOptions& options, B
                                   [&](double share) { stages.report(share); }};
     stages.begin("backend");
     const auto source = backend.prepare(solid.surface);
-    if (options.method == Method::Paper) {
-        return extract_by_paper(solid.surface, *source, options.paper, progress);
-    }
-    return extract_by_newton(solid.surface, solid.is_closed, *source, options.newton, progress);
+    SolidSkeleton skeleton =
+        options.method == Method::Paper
+            ? extract_by_paper(solid.surface, *source, options.paper, progress)
+            : extract_by_newton(solid.surface, solid.is_closed, *source, options.newton, progress);
+    if (solid.is_closed)
+        skeleton.volumes = node_volumes(solid.surface, skeleton.vertex_node, skeleton.nodes);
+    return skeleton;
 }
 
 class Assembler {
@@ -81,8 +85,11 @@ class Assembler {
         const auto first = static_cast<std::uint32_t>(result_.graph.nodes.size());
         for (std::size_t n = 0; n < part.nodes.size(); ++n) {
             const auto radius = static_cast<double>(part.radii[n]);
-            result_.graph.nodes.push_back(
-                {to_world.to_model(part.nodes[n]), to_world.length_to_model(radius), number});
+            const double volume = part.volumes.empty() ? 0.0 : part.volumes[n];
+            const double unit = to_world.length_to_model(1.0);
+            result_.graph.nodes.push_back({to_world.to_model(part.nodes[n]),
+                                           to_world.length_to_model(radius), number,
+                                           volume * unit * unit * unit});
         }
         for (const glm::uvec2& edge : part.edges) {
             result_.graph.edges.push_back({edge.x + first, edge.y + first});

@@ -24,6 +24,7 @@ Json nodes_json(const SkeletonGraph& graph) {
         nodes.push_back({{"id", i},
                          {"position", point(node.position)},
                          {"radius", node.radius},
+                         {"volume", node.volume},
                          {"solid", node.solid}});
     }
     return nodes;
@@ -35,6 +36,25 @@ Json edges_json(const SkeletonGraph& graph) {
         edges.push_back({{"source", edge.source}, {"target", edge.target}});
     }
     return edges;
+}
+
+std::string_view kind_of(std::uint32_t degree) {
+    if (degree == 1) return "end";
+    return degree == 2 ? "ring" : "junction";
+}
+
+// Tortuosity is null where a branch comes back to its start.
+Json branches_json(const SkeletonGraph& graph) {
+    Json list = Json::array();
+    for (const Branch& branch : find_branches(graph)) {
+        list.push_back({{"nodes", branch.nodes},
+                        {"from", kind_of(branch.start_degree)},
+                        {"to", kind_of(branch.stop_degree)},
+                        {"length", branch.length},
+                        {"mean_radius", branch.mean_radius},
+                        {"tortuosity", branch.tortuosity}});
+    }
+    return list;
 }
 
 // -1 where a vertex has no face and so no node.
@@ -164,6 +184,7 @@ std::string skeleton_json(const ExtractResult& result, const Provenance& provena
         {"version", "1"},
         {"nodes", rows(nodes_json(result.graph))},
         {"edges", rows(edges_json(result.graph))},
+        {"branches", rows(branches_json(result.graph))},
         {"vertex_node", text(vertex_node_json(result.graph))},
         {"statistics", text(statistics_json(result))},
         {"warnings", rows(Json(result.warnings))},

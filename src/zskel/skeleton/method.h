@@ -18,6 +18,7 @@ namespace zskel {
 struct SolidSkeleton {
     std::vector<Vec3> nodes;
     std::vector<float> radii;                ///< inscribed
+    std::vector<double> volumes;             ///< world units; empty on open surfaces
     std::vector<glm::uvec2> edges;           ///< lower node first, each once, sorted
     std::vector<std::uint32_t> vertex_node;  ///< of every vertex
     std::vector<Seed> seeds;

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "zskel/core/eigen3.h"
+#include "zskel/skeleton/branches.h"
 
 namespace zskel {
 namespace {
@@ -26,43 +27,15 @@ void unlink(CurveGraph& graph, std::uint32_t a, std::uint32_t b) {
     unlink_one(graph.nodes[b].links, a);
 }
 
-bool is_branch_end(const Node& node) {
-    return node.links.size() != 2;
+// Neighbours of a node; a removed one has none.
+auto links_in(const CurveGraph& graph) {
+    return [&graph](std::uint32_t n) -> const std::vector<std::uint32_t>& {
+        return graph.nodes[n].links;
+    };
 }
 
-// Nodes from `first` over `second` to the next end or junction, or round to `first`.
-std::vector<std::uint32_t> walk(const CurveGraph& graph, std::uint32_t first,
-                                std::uint32_t second) {
-    std::vector<std::uint32_t> path{first, second};
-    while (!is_branch_end(graph.nodes[path.back()]) && path.back() != first) {
-        const auto& links = graph.nodes[path.back()].links;
-        path.push_back(links[0] == path[path.size() - 2] ? links[1] : links[0]);
-    }
-    return path;
-}
-
-// Every branch once, from its lower end; closed rings without a junction from their lowest node.
 std::vector<std::vector<std::uint32_t>> branches_of(const CurveGraph& graph) {
-    std::vector<std::vector<std::uint32_t>> out;
-    std::vector<bool> seen(graph.nodes.size(), false);
-    for (std::uint32_t n = 0; n < graph.nodes.size(); ++n) {
-        const Node& node = graph.nodes[n];
-        if (node.is_removed || !is_branch_end(node)) continue;
-        for (const std::uint32_t next : node.links) {
-            std::vector<std::uint32_t> path = walk(graph, n, next);
-            const bool is_mirror =
-                path.back() < n || (path.back() == n && path[1] > path[path.size() - 2]);
-            for (const std::uint32_t p : path) seen[p] = true;
-            if (!is_mirror) out.push_back(std::move(path));
-        }
-    }
-    for (std::uint32_t n = 0; n < graph.nodes.size(); ++n) {
-        const Node& node = graph.nodes[n];
-        if (node.is_removed || seen[n] || node.links.size() != 2) continue;
-        out.push_back(walk(graph, n, node.links[0]));
-        for (const std::uint32_t p : out.back()) seen[p] = true;
-    }
-    return out;
+    return trace_branches(graph.nodes.size(), links_in(graph));
 }
 
 float length_of(const CurveGraph& graph, const std::vector<std::uint32_t>& path) {
@@ -272,7 +245,8 @@ class Refiner {
 
     // A point of the branch about one radius back from its end.
     Vec3 before_end(std::uint32_t end) const {
-        const std::vector<std::uint32_t> path = walk(graph_, end, graph_.nodes[end].links[0]);
+        const std::vector<std::uint32_t> path =
+            walk_branch(links_in(graph_), end, graph_.nodes[end].links[0]);
         std::size_t i = 1;
         while (i + 1 < path.size() &&
                glm::distance(graph_.nodes[path[i]].position, graph_.nodes[end].position) <
