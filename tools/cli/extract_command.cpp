@@ -174,7 +174,7 @@ void add_method_options(CLI::App& command, Arguments& arguments) {
             ->group(kNewton),
         command
             .add_option(
-                "--detail", newton.refine.detail,
+                "--detail", newton.limbs.detail,
                 "How far a limb must stick out to be kept: below 1 more of them, above 1 fewer")
             ->capture_default_str()
             ->check(CLI::Range(0.01, 100.0))

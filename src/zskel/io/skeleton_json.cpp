@@ -90,7 +90,8 @@ Json statistics_json(const ExtractResult& result) {
             {"components", topology.components},
             {"cycles", topology.cycles},
             {"expected_cycles", s.expected_cycles},
-            {"pruned_branches", s.refine.pruned_branches},
+            {"limbs", s.limbs},
+            {"rejected_limbs", s.rejected_limbs},
             {"merged_junctions", s.refine.merged_junctions},
             {"extended_ends", s.refine.extended_ends},
             {"seeds", s.seeds},
@@ -119,7 +120,7 @@ Json options_json(const Provenance& provenance) {
                     {"spacing_thickness", o.newton.spread.spacing_thickness},
                     {"max_steps", o.newton.steps.max_steps},
                     {"cluster_radii", o.newton.cluster_radii},
-                    {"detail", o.newton.refine.detail},
+                    {"detail", o.newton.limbs.detail},
                     {"sweeps", o.newton.refine.sweeps}});
     }
     return out;

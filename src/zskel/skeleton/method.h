@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "zskel/skeleton/cluster.h"
+#include "zskel/skeleton/limbs.h"
 #include "zskel/skeleton/newton.h"
 #include "zskel/skeleton/refine.h"
 #include "zskel/skeleton/seeds.h"
@@ -25,6 +26,8 @@ struct SolidSkeleton {
     std::vector<SettledSeed> settled;  ///< of every seed
     std::size_t forest_edges = 0;      ///< edges left when every cycle is opened at its longest
     std::size_t expected_cycles = 0;   ///< handles; 0 where they are not known
+    std::size_t limbs = 0;  ///< that grew from the cycles or the thickest node
+    std::size_t rejected_limbs = 0;
     RefineReport refine;
     std::vector<std::string> warnings;
 };
@@ -53,6 +56,7 @@ struct NewtonMethodOptions {
     double cluster_radii = 0.5;        ///< range within which end points become one, in local radii
     double min_cluster_world = 0.006;  ///< but between these
     double max_cluster_world = 0.05;
+    LimbOptions limbs;
     int max_retries = 4;  ///< each with half the range, when clusters have swallowed a handle
     RefineOptions refine;
 };

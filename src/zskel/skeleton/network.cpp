@@ -37,7 +37,7 @@ class Network {
         });
     }
 
-    std::vector<Connection> choose(bool& enough) {
+    ClusterNetwork choose() {
         std::vector<std::uint32_t> order(candidates_.size());
         std::iota(order.begin(), order.end(), 0u);
         std::stable_sort(order.begin(), order.end(), [&](auto l, auto r) {
@@ -45,7 +45,7 @@ class Network {
             const Connection& b = candidates_[r].connection;
             return std::pair(!a.is_inside, a.length) < std::pair(!b.is_inside, b.length);
         });
-        std::vector<Connection> chosen;
+        ClusterNetwork out;
         std::vector<std::uint32_t> others;
         DisjointSets sets(context_.clusters.centers.size());
         tree_.assign(context_.clusters.centers.size(), {});
@@ -55,13 +55,15 @@ class Network {
                 others.push_back(i);
                 continue;
             }
-            chosen.push_back(c);
+            out.spanning.push_back(i);
             tree_[c.a].push_back({c.b, i, 1});
             tree_[c.b].push_back({c.a, i, -1});
         }
-        enough = genus_ == 0 || add_cycles(others, chosen);
-        bridge_shells(sets, chosen);
-        return chosen;
+        out.has_all_cycles = genus_ == 0 || add_cycles(others, out.spanning);
+        for (Candidate& candidate : candidates_)
+            out.connections.push_back(std::move(candidate.connection));
+        bridge_shells(sets, out);
+        return out;
     }
 
   private:
@@ -237,7 +239,7 @@ class Network {
 
     // The mesh joins nothing across a solid's shells (a ball with a cavity); the nearest clusters
     // that see each other do.
-    void bridge_shells(DisjointSets& sets, std::vector<Connection>& chosen) const {
+    void bridge_shells(DisjointSets& sets, ClusterNetwork& out) const {
         const std::vector<Vec3>& centers = context_.clusters.centers;
         std::vector<Connection> bridges;
         for (std::uint32_t a = 0; a < centers.size(); ++a) {
@@ -261,7 +263,8 @@ class Network {
             if (sets.find(bridge.a) == sets.find(bridge.b) || !is_free(bridge.path, context_.query))
                 continue;
             sets.unite(bridge.a, bridge.b);
-            chosen.push_back(bridge);
+            out.spanning.push_back(static_cast<std::uint32_t>(out.connections.size()));
+            out.connections.push_back(bridge);
         }
     }
 
@@ -306,7 +309,7 @@ class Network {
         return a;
     }
 
-    bool add_cycles(const std::vector<std::uint32_t>& others, std::vector<Connection>& chosen) {
+    bool add_cycles(const std::vector<std::uint32_t>& others, std::vector<std::uint32_t>& spanning) {
         walk_tree();
         std::vector<Cycle> cycles;
         for (const std::uint32_t i : others) {
@@ -328,7 +331,7 @@ class Network {
             if (accepted.size() == genus_) break;
             accepted.push_back(cycle.cls);
             if (is_primitive(accepted)) {
-                chosen.push_back(candidates_[cycle.candidate].connection);
+                spanning.push_back(cycle.candidate);
             } else {
                 accepted.pop_back();
             }
@@ -351,9 +354,9 @@ class Network {
 
 }  // namespace
 
-std::vector<Connection> connect_network(const ClusterContext& context,
-                                        const std::optional<HandleClasses>& handles, bool& enough) {
-    return Network(context, handles).choose(enough);
+ClusterNetwork connect_network(const ClusterContext& context,
+                               const std::optional<HandleClasses>& handles) {
+    return Network(context, handles).choose();
 }
 
 std::vector<Vec3> pull_tight(const std::vector<Vec3>& path, const SurfaceQuery& query) {

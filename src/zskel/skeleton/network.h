@@ -41,10 +41,13 @@ struct ClusterContext {
 /// has handles: shortest cycles first, each only when its class is independent of those before, and
 /// the whole a basis over the integers. Without `handles` (open or broken surfaces) it is the
 /// forest alone.
-/// @param enough  set to whether as many cycles as handles were found; if not, some cluster has
-/// swallowed one.
-std::vector<Connection> connect_network(const ClusterContext& context,
-                                        const std::optional<HandleClasses>& handles, bool& enough);
+struct ClusterNetwork {
+    std::vector<Connection> connections;   ///< all that the mesh gives, and bridges between shells
+    std::vector<std::uint32_t> spanning;   ///< numbers of those in the tree and of its cycles
+    bool has_all_cycles = true;            ///< false when some cluster has swallowed a handle
+};
+ClusterNetwork connect_network(const ClusterContext& context,
+                               const std::optional<HandleClasses>& handles);
 
 /// The way between two points, straightened: points of `path` are left out while the segment past
 /// them is free.

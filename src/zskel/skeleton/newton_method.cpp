@@ -88,30 +88,37 @@ SolidSkeleton extract_by_newton(const Surface& surface, bool is_closed, Visibili
     const std::vector<Shortcut> shortcuts = find_shortcuts(ends, links, radii, ranges);
     std::vector<glm::uvec2> joints = links;
     for (const Shortcut& s : shortcuts) joints.emplace_back(s.walk.front(), s.walk.back());
+    std::vector<Vec3> seed_points;
+    for (const std::uint32_t v : spread.vertices) seed_points.push_back(surface.positions[v]);
     CurveGraph graph;
     for (int attempt = 0;; ++attempt) {
         Clusters clusters = cluster_minima(ends, joints, ranges);
         center_on_members(clusters, ends);
         const ClusterContext context{surface, query, spread,    out.settled,
                                      inner,   links, shortcuts, clusters};
-        bool enough = false;
-        const std::vector<Connection> connections = connect_network(context, handles, enough);
-        if (!enough && attempt < options.max_retries) {
+        const ClusterNetwork network = connect_network(context, handles);
+        if (!network.has_all_cycles && attempt < options.max_retries) {
             for (float& range : ranges) range *= 0.5f;
             continue;
         }
-        if (!enough)
+        if (!network.has_all_cycles)
             out.warnings.emplace_back("a handle is smaller than the clusters: a cycle is missing");
-        const auto unfree = std::count_if(connections.begin(), connections.end(),
-                                          [](const Connection& c) { return !c.is_inside; });
+        std::vector<float> cluster_radii;
+        for (const Vec3& center : clusters.centers)
+            cluster_radii.push_back(query.nearest(center).distance);
+        const Limbs limbs = grow_limbs(network.connections, network.spanning, clusters,
+                                       cluster_radii, seed_points, options.limbs);
+        const auto unfree =
+            std::count_if(limbs.connections.begin(), limbs.connections.end(),
+                          [&](std::uint32_t i) { return !network.connections[i].is_inside; });
         if (unfree > 0)
             out.warnings.push_back(fmt::format("{} connections could not be laid inside", unfree));
-        graph = build_graph(context, connections);
+        out.limbs = limbs.limbs;
+        out.rejected_limbs = limbs.rejected;
+        graph = build_graph(context, network.connections, limbs);
         break;
     }
     progress.begin("refine");
-    std::vector<Vec3> seed_points;
-    for (const std::uint32_t v : spread.vertices) seed_points.push_back(surface.positions[v]);
     out.refine = refine_graph(graph, seed_points, query, source, options.refine);
     flatten(graph, spread, out);
     out.forest_edges = out.nodes.size() - 1;

@@ -65,8 +65,6 @@ class Refiner {
 
     RefineReport run() {
         merge_junctions();
-        prune();
-        merge_junctions();
         extend_ends();
         resample();
         for (int i = 0; i < options_.smoothing_sweeps; ++i) sweep(0.0);
@@ -80,97 +78,6 @@ class Refiner {
 
   private:
     bool free_between(const Vec3& a, const Vec3& b) const { return !query_.first_hit(a, b); }
-
-    // The least of what a limb has to have, each over its bound; below 1 the branch is a spur: its
-    // surface sticks out of the inscribed balls of the rest of the skeleton, by its own thickness
-    // and by some share of the junction's, and it has some length.
-    double limb_measure(const std::vector<std::uint32_t>& path) const {
-        std::vector<bool> in_branch(graph_.nodes.size(), false);
-        for (std::size_t i = 1; i < path.size(); ++i) in_branch[path[i]] = true;
-        const double junction_radius =
-            static_cast<double>(std::max(graph_.nodes[path.front()].radius, 1e-9f));
-        double sticks_out = 0.0;
-        for (std::size_t i = 1; i < path.size(); ++i) {
-            const Node& node = graph_.nodes[path[i]];
-            for (const std::uint32_t s : node.seeds) {
-                const double beyond = distance_beyond(seed_points_[s], in_branch);
-                const double own = static_cast<double>(std::max(node.radius, 1e-9f));
-                sticks_out =
-                    std::max(sticks_out,
-                             std::min(beyond / (options_.least_own_radii * own),
-                                      beyond / (options_.least_junction_radii * junction_radius)));
-            }
-        }
-        const double length = static_cast<double>(length_of(graph_, path)) / junction_radius;
-        return std::min(sticks_out, length / options_.least_length_radii) / options_.detail;
-    }
-
-    // From a point to the nearest inscribed ball of the rest.
-    double distance_beyond(const Vec3& point, const std::vector<bool>& left_out) const {
-        double least = 1e9;
-        for (std::uint32_t n = 0; n < graph_.nodes.size(); ++n) {
-            const Node& node = graph_.nodes[n];
-            if (node.is_removed || left_out[n]) continue;
-            least = std::min(
-                least, static_cast<double>(glm::distance(point, node.position) - node.radius));
-        }
-        return least;
-    }
-
-    // Spurs go, the least first, since what is left may join to a longer limb.
-    void prune() {
-        while (true) {
-            double least = 1.0;
-            std::vector<std::uint32_t> worst;
-            for (const std::vector<std::uint32_t>& branch : branches_of(graph_)) {
-                std::vector<std::uint32_t> path = branch;
-                const bool front_ends = graph_.nodes[path.front()].links.size() == 1;
-                const bool back_ends = graph_.nodes[path.back()].links.size() == 1;
-                if (front_ends && back_ends) {
-                    shrink_blob(path);
-                    continue;
-                }
-                if (front_ends == back_ends) continue;
-                if (front_ends) std::reverse(path.begin(), path.end());
-                const double measure = limb_measure(path);
-                if (measure < least) {
-                    least = measure;
-                    worst = path;
-                }
-            }
-            if (worst.empty()) return;
-            remove_branch(worst);
-        }
-    }
-
-    // A lone branch that is short against its own radius is no limb: it becomes the node of
-    // greatest radius.
-    void shrink_blob(const std::vector<std::uint32_t>& path) {
-        const std::uint32_t center = *std::max_element(
-            path.begin(), path.end(),
-            [&](auto l, auto r) { return graph_.nodes[l].radius < graph_.nodes[r].radius; });
-        const double radius = options_.detail * static_cast<double>(graph_.nodes[center].radius);
-        if (static_cast<double>(length_of(graph_, path)) >= options_.least_length_radii * radius)
-            return;
-        ++report_.pruned_branches;
-        report_.pruned_length_world += static_cast<double>(length_of(graph_, path));
-        for (std::size_t i = 1; i < path.size(); ++i) unlink(graph_, path[i - 1], path[i]);
-        for (const std::uint32_t n : path) {
-            if (n == center) continue;
-            give_seeds(graph_, n, center);
-            graph_.nodes[n].is_removed = true;
-        }
-    }
-
-    void remove_branch(const std::vector<std::uint32_t>& path) {
-        ++report_.pruned_branches;
-        report_.pruned_length_world += static_cast<double>(length_of(graph_, path));
-        for (std::size_t i = path.size() - 1; i > 0; --i) {
-            unlink(graph_, path[i - 1], path[i]);
-            give_seeds(graph_, path[i], path.front());
-            graph_.nodes[path[i]].is_removed = true;
-        }
-    }
 
     // Two junctions become one, the one with the greater radius, when the other's neighbours can be
     // joined to it.
@@ -451,24 +358,28 @@ class Refiner {
 
 }  // namespace
 
-CurveGraph build_graph(const ClusterContext& context, const std::vector<Connection>& connections) {
+CurveGraph build_graph(const ClusterContext& context, std::span<const Connection> connections,
+                       const Limbs& limbs) {
     CurveGraph graph;
-    graph.nodes.resize(context.clusters.centers.size());
-    for (std::size_t n = 0; n < graph.nodes.size(); ++n)
-        graph.nodes[n].position = context.clusters.centers[n];
-    for (std::uint32_t s = 0; s < context.clusters.of_point.size(); ++s) {
-        graph.nodes[context.clusters.of_point[s]].seeds.push_back(s);
+    std::vector<std::uint32_t> number(limbs.home.size(), kNone);
+    for (std::uint32_t c = 0; c < limbs.home.size(); ++c) {
+        if (limbs.home[c] != c) continue;
+        number[c] = static_cast<std::uint32_t>(graph.nodes.size());
+        graph.nodes.emplace_back().position = context.clusters.centers[c];
     }
-    for (const Connection& c : connections) {
-        std::uint32_t last = c.a;
-        for (std::size_t i = 1; i + 1 < c.path.size(); ++i) {
-            Node node;
-            node.position = c.path[i];
-            graph.nodes.push_back(std::move(node));
-            link(graph, last, static_cast<std::uint32_t>(graph.nodes.size() - 1));
-            last = static_cast<std::uint32_t>(graph.nodes.size() - 1);
+    for (std::uint32_t s = 0; s < context.clusters.of_point.size(); ++s) {
+        graph.nodes[number[limbs.home[context.clusters.of_point[s]]]].seeds.push_back(s);
+    }
+    for (const std::uint32_t i : limbs.connections) {
+        const Connection& c = connections[i];
+        std::uint32_t last = number[c.a];
+        for (std::size_t k = 1; k + 1 < c.path.size(); ++k) {
+            const auto next = static_cast<std::uint32_t>(graph.nodes.size());
+            graph.nodes.emplace_back().position = c.path[k];
+            link(graph, last, next);
+            last = next;
         }
-        link(graph, last, c.b);
+        link(graph, last, number[c.b]);
     }
     for (Node& node : graph.nodes) node.radius = context.query.nearest(node.position).distance;
     return graph;

@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "zskel/skeleton/limbs.h"
 #include "zskel/skeleton/network.h"
 #include "zskel/visibility/visibility_source.h"
 
@@ -21,11 +22,6 @@ struct CurveGraph {
 };
 
 struct RefineOptions {
-    double detail = 1.0;  ///< scales what counts as a limb: below 1 more spurs stay, above 1 fewer
-    double least_own_radii = 1.5;  ///< a branch goes when its surface sticks out of the rest's
-                                   ///< inscribed balls by less than this many of its own radii,
-    double least_junction_radii = 0.35;  ///< or of its junction's,
-    double least_length_radii = 0.8;     ///< or is shorter than this many of its junction's
     double merge_radii = 0.5;            ///< junctions nearer than this become one
     double tip_gap_radii = 0.5;          ///< ends are extended to this distance from the tip
     double min_spacing_world = 0.004;    ///< of nodes; between these bounds it is the radius
@@ -38,17 +34,16 @@ struct RefineOptions {
 };
 
 struct RefineReport {
-    std::size_t pruned_branches = 0;
-    double pruned_length_world = 0.0;
     std::size_t merged_junctions = 0;
     std::size_t extended_ends = 0;
     std::size_t evaluations = 0;
 };
 
-/// Nodes at the clusters' centres and along the connections' paths.
-CurveGraph build_graph(const ClusterContext& context, const std::vector<Connection>& connections);
+/// Nodes at the kept clusters' centres and along their connections' paths.
+CurveGraph build_graph(const ClusterContext& context, std::span<const Connection> connections,
+                       const Limbs& limbs);
 
-/// Prunes spurs, merges junctions, extends ends to the tips, and centres and smooths the branches.
+/// Merges junctions, extends ends to the tips, and centres and smooths the branches.
 /// No segment that was free is left unfree, and cycles stay.
 /// @param seed_points  where every seed's vertex is on the surface.
 RefineReport refine_graph(CurveGraph& graph, std::span<const Vec3> seed_points,
