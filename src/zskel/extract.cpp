@@ -106,9 +106,7 @@ class Assembler {
         sums.cavities += solid.cavity_count;
         sums.forest_edges += part.forest_edges;
         sums.seeds += part.seeds.size();
-        sums.evaluations += part.refine.evaluations;
         sums.expected_cycles += part.expected_cycles;
-        sums.refine.evaluations += part.refine.evaluations;
         sums.limbs += part.limbs;
         sums.rejected_limbs += part.rejected_limbs;
         sums.refine.merged_junctions += part.refine.merged_junctions;

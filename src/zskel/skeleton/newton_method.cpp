@@ -103,11 +103,7 @@ SolidSkeleton extract_by_newton(const Surface& surface, bool is_closed, Visibili
         }
         if (!network.has_all_cycles)
             out.warnings.emplace_back("a handle is smaller than the clusters: a cycle is missing");
-        std::vector<float> cluster_radii;
-        for (const Vec3& center : clusters.centers)
-            cluster_radii.push_back(query.nearest(center).distance);
-        const Limbs limbs = grow_limbs(network.connections, network.spanning, clusters,
-                                       cluster_radii, seed_points, options.limbs);
+        const Limbs limbs = grow_limbs(context, network, options.limbs);
         const auto unfree =
             std::count_if(limbs.connections.begin(), limbs.connections.end(),
                           [&](std::uint32_t i) { return !network.connections[i].is_inside; });
@@ -119,7 +115,7 @@ SolidSkeleton extract_by_newton(const Surface& surface, bool is_closed, Visibili
         break;
     }
     progress.begin("refine");
-    out.refine = refine_graph(graph, seed_points, query, source, options.refine);
+    out.refine = refine_graph(graph, seed_points, query, options.refine);
     flatten(graph, spread, out);
     out.forest_edges = out.nodes.size() - 1;
     return out;

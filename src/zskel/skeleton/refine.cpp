@@ -2,10 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
 #include <utility>
 
-#include "zskel/core/eigen3.h"
+#include "zskel/core/parallel.h"
 #include "zskel/skeleton/branches.h"
+#include "zskel/skeleton/section.h"
 
 namespace zskel {
 namespace {
@@ -56,19 +58,22 @@ void give_seeds(CurveGraph& graph, std::uint32_t from, std::uint32_t to) {
 class Refiner {
   public:
     Refiner(CurveGraph& graph, std::span<const Vec3> seed_points, const SurfaceQuery& query,
-            VisibilitySource& source, const RefineOptions& options)
+            const RefineOptions& options)
         : graph_(graph),
           seed_points_(seed_points),
           query_(query),
-          source_(source),
           options_(options) {}
 
     RefineReport run() {
         merge_junctions();
         extend_ends();
         resample();
-        for (int i = 0; i < options_.smoothing_sweeps; ++i) sweep(0.0);
-        for (int i = 0; i < options_.sweeps; ++i) sweep(options_.centring);
+        for (int i = 0; i < options_.smoothing_sweeps; ++i) smooth(options_.smoothing);
+        for (int i = 0; i < options_.sweeps; ++i) {
+            centre();
+            smooth(options_.smoothing);
+            if (options_.unshrink > 0.0) smooth(-options_.unshrink);
+        }
         resample();
         for (Node& node : graph_.nodes) {
             if (!node.is_removed) node.radius = query_.nearest(node.position).distance;
@@ -273,85 +278,74 @@ class Refiner {
         }
     }
 
-    // One pass over all nodes within branches: towards where the force across the branch vanishes,
-    // and towards the middle of the neighbours. A move that would leave the solid is not made.
-    void sweep(double centring) {
-        std::vector<std::uint32_t> moving;
-        std::vector<Vec3> eyes;
+    // One pass over all nodes but the ends: each towards the middle of its neighbours, or away from
+    // it where `share` is negative. A move that would leave the solid is not made.
+    void smooth(double share) {
+        std::vector<std::pair<std::uint32_t, Vec3>> targets;
         for (std::uint32_t n = 0; n < graph_.nodes.size(); ++n) {
-            if (graph_.nodes[n].is_removed || graph_.nodes[n].links.size() < 2) continue;
-            moving.push_back(n);
-            eyes.push_back(graph_.nodes[n].position);
+            const Node& node = graph_.nodes[n];
+            if (node.is_removed || node.links.size() < 2) continue;
+            DVec3 middle(0.0);
+            for (const std::uint32_t other : node.links)
+                middle += DVec3(graph_.nodes[other].position);
+            middle /= static_cast<double>(node.links.size());
+            // A junction is held by its branches; the smoothing alone would drag it to the longest.
+            const double held = node.links.size() > 2 ? 0.3 : 1.0;
+            const DVec3 here(node.position);
+            targets.emplace_back(n, Vec3(here + (middle - here) * (share * held)));
         }
-        std::vector<EyeRecord> records(eyes.size());
-        if (centring > 0.0 && !eyes.empty()) {
-            source_.look(eyes, records);
-            report_.evaluations += eyes.size();
+        move(targets);
+    }
+
+    // One pass over all nodes within branches, each to the centre of its section.
+    void centre() {
+        std::vector<std::uint32_t> moving;
+        for (std::uint32_t n = 0; n < graph_.nodes.size(); ++n) {
+            if (!graph_.nodes[n].is_removed && graph_.nodes[n].links.size() == 2)
+                moving.push_back(n);
         }
-        std::vector<Vec3> targets;
-        for (std::size_t i = 0; i < moving.size(); ++i)
-            targets.push_back(target_of(graph_.nodes[moving[i]], records[i], centring));
-        for (std::size_t i = 0; i < moving.size(); ++i) {
-            Node& node = graph_.nodes[moving[i]];
+        std::vector<std::pair<std::uint32_t, Vec3>> targets(moving.size());
+        parallel_for(moving.size(), 4, [&](std::size_t begin, std::size_t end) {
+            for (std::size_t i = begin; i < end; ++i)
+                targets[i] = {moving[i], centred(moving[i])};
+        });
+        move(targets);
+    }
+
+    Vec3 centred(std::uint32_t n) const {
+        const Node& node = graph_.nodes[n];
+        const Vec3 chord = ahead_of(n, node.links[1]) - ahead_of(n, node.links[0]);
+        if (!(glm::length(chord) > 0.0f)) return node.position;
+        const Vec3 step = step_to_section_centre(query_, node.position, glm::normalize(chord));
+        const auto share = static_cast<float>(options_.centring);
+        const float longest =
+            static_cast<float>(options_.longest_move_radii) * query_.nearest(node.position).distance;
+        const float length = glm::length(step) * share;
+        return node.position + step * (length > longest ? share * longest / length : share);
+    }
+
+    // A point of the branch two nodes on from `n` over its neighbour `next`.
+    const Vec3& ahead_of(std::uint32_t n, std::uint32_t next) const {
+        const auto& links = graph_.nodes[next].links;
+        if (links.size() != 2) return graph_.nodes[next].position;
+        return graph_.nodes[links[0] == n ? links[1] : links[0]].position;
+    }
+
+    void move(const std::vector<std::pair<std::uint32_t, Vec3>>& targets) {
+        for (const auto& [n, target] : targets) {
+            Node& node = graph_.nodes[n];
+            const Vec3& to = target;
             const bool stays =
-                std::all_of(node.links.begin(), node.links.end(), [&](std::uint32_t n) {
-                    return free_between(graph_.nodes[n].position, targets[i]);
+                std::all_of(node.links.begin(), node.links.end(), [&](std::uint32_t other) {
+                    return free_between(graph_.nodes[other].position, to);
                 });
-            if (stays) node.position = targets[i];
+            if (stays) node.position = to;
         }
-    }
-
-    Vec3 target_of(const Node& node, const EyeRecord& met, double centring) const {
-        DVec3 middle(0.0);
-        for (const std::uint32_t n : node.links) middle += DVec3(graph_.nodes[n].position);
-        middle /= static_cast<double>(node.links.size());
-        const DVec3 here(node.position);
-        DVec3 move = (middle - here) * options_.smoothing;
-        if (node.links.size() == 2 && centring > 0.0) {
-            const DVec3 chord(graph_.nodes[node.links[1]].position -
-                              graph_.nodes[node.links[0]].position);
-            if (glm::length(chord) > 0.0)
-                move += across_step(met, glm::normalize(chord)) * centring;
-        } else if (node.links.size() > 2) {
-            move *= 0.3;  // a junction is held by its branches; the smoothing alone would drag it
-                          // to the longest
-        }
-        const double longest = options_.longest_move_spacing * spacing_at(node.radius);
-        const double length = glm::length(move);
-        if (length > longest) move *= longest / length;
-        return node.position + Vec3(move);
-    }
-
-    // The Newton step on the force in the plane across the branch.
-    DVec3 across_step(const EyeRecord& met, const DVec3& tangent) const {
-        const DVec3 helper = std::abs(tangent.x) < 0.8 ? DVec3(1, 0, 0) : DVec3(0, 1, 0);
-        const DVec3 u = glm::normalize(glm::cross(tangent, helper));
-        const DVec3 v = glm::cross(tangent, u);
-        const auto& j = met.jacobian;
-        const auto times = [&](const DVec3& x) {
-            return DVec3(j[0] * x.x + j[3] * x.y + j[4] * x.z, j[3] * x.x + j[1] * x.y + j[5] * x.z,
-                         j[4] * x.x + j[5] * x.y + j[2] * x.z);
-        };
-        const DVec3 ju = times(u);
-        const DVec3 jv = times(v);
-        const double a = glm::dot(u, ju);
-        const double b = glm::dot(u, jv);
-        const double c = glm::dot(v, jv);
-        const double determinant = a * c - b * b;
-        const DVec3 force(met.force);
-        const double fu = glm::dot(force, u);
-        const double fv = glm::dot(force, v);
-        if (!(determinant > 0.01 * (a + c) * (a + c)) || a + c <= 0.0) {
-            const double scale = std::max(a + c, 1e-9);
-            return (u * fu + v * fv) / scale;
-        }
-        return u * ((c * fu - b * fv) / determinant) + v * ((a * fv - b * fu) / determinant);
     }
 
     CurveGraph& graph_;
     std::span<const Vec3> seed_points_;
     const SurfaceQuery& query_;
-    VisibilitySource& source_;
     const RefineOptions& options_;
     RefineReport report_;
 };
@@ -381,14 +375,22 @@ CurveGraph build_graph(const ClusterContext& context, std::span<const Connection
         }
         link(graph, last, number[c.b]);
     }
+    for (const Limbs::Tip& tip : limbs.tips) {
+        std::uint32_t last = number[tip.cluster];
+        for (std::size_t k = 1; k < tip.path.size(); ++k) {
+            const auto next = static_cast<std::uint32_t>(graph.nodes.size());
+            graph.nodes.emplace_back().position = tip.path[k];
+            link(graph, last, next);
+            last = next;
+        }
+    }
     for (Node& node : graph.nodes) node.radius = context.query.nearest(node.position).distance;
     return graph;
 }
 
 RefineReport refine_graph(CurveGraph& graph, std::span<const Vec3> seed_points,
-                          const SurfaceQuery& query, VisibilitySource& source,
-                          const RefineOptions& options) {
-    return Refiner(graph, seed_points, query, source, options).run();
+                          const SurfaceQuery& query, const RefineOptions& options) {
+    return Refiner(graph, seed_points, query, options).run();
 }
 
 }  // namespace zskel

@@ -5,7 +5,7 @@
 
 #include "zskel/skeleton/limbs.h"
 #include "zskel/skeleton/network.h"
-#include "zskel/visibility/visibility_source.h"
+#include "zskel/visibility/surface_query.h"
 
 namespace zskel {
 
@@ -28,15 +28,15 @@ struct RefineOptions {
     double max_spacing_world = 0.02;
     int smoothing_sweeps = 12;  ///< before, of smoothing alone
     int sweeps = 6;             ///< of centring and smoothing
-    double centring = 0.5;      ///< share of the Newton step across the branch that a sweep takes
-    double smoothing = 0.5;     ///< share of the way to the middle of the neighbours
-    double longest_move_spacing = 0.3;  ///< in a sweep
+    double centring = 0.7;      ///< share of the step to the section's centre that a sweep takes
+    double longest_move_radii = 0.5;  ///< but no longer than this, in inscribed radii
+    double smoothing = 0.5;     ///< share of the way to the middle of the neighbours,
+    double unshrink = 0.52;     ///< and then away from it, so that bends are not cut
 };
 
 struct RefineReport {
     std::size_t merged_junctions = 0;
     std::size_t extended_ends = 0;
-    std::size_t evaluations = 0;
 };
 
 /// Nodes at the kept clusters' centres and along their connections' paths.
@@ -47,7 +47,7 @@ CurveGraph build_graph(const ClusterContext& context, std::span<const Connection
 /// No segment that was free is left unfree, and cycles stay.
 /// @param seed_points  where every seed's vertex is on the surface.
 RefineReport refine_graph(CurveGraph& graph, std::span<const Vec3> seed_points,
-                          const SurfaceQuery& query, VisibilitySource& source,
+                          const SurfaceQuery& query,
                           const RefineOptions& options);
 
 }  // namespace zskel
