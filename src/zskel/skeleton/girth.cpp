@@ -21,8 +21,7 @@ std::vector<float> girths_at(const SurfaceQuery& query, std::span<const Vec3> po
             const float longest = kMostRadii * query.nearest(points[i]).distance;
             std::vector<float> ways;
             for (const DVec3& direction : directions.unit) {
-                const auto hit =
-                    query.first_hit(points[i], points[i] + Vec3(direction) * longest);
+                const auto hit = query.first_hit(points[i], points[i] + Vec3(direction) * longest);
                 ways.push_back(hit ? hit->fraction * longest : longest);
             }
             const auto middle = ways.begin() + kDirections / 2;

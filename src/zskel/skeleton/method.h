@@ -26,7 +26,7 @@ struct SolidSkeleton {
     std::vector<SettledSeed> settled;  ///< of every seed
     std::size_t forest_edges = 0;      ///< edges left when every cycle is opened at its longest
     std::size_t expected_cycles = 0;   ///< handles; 0 where they are not known
-    std::size_t limbs = 0;  ///< that grew from the cycles or the thickest node
+    std::size_t limbs = 0;             ///< that grew from the cycles or the thickest node
     std::size_t rejected_limbs = 0;
     RefineReport refine;
     std::vector<std::string> warnings;

@@ -309,7 +309,8 @@ class Network {
         return a;
     }
 
-    bool add_cycles(const std::vector<std::uint32_t>& others, std::vector<std::uint32_t>& spanning) {
+    bool add_cycles(const std::vector<std::uint32_t>& others,
+                    std::vector<std::uint32_t>& spanning) {
         walk_tree();
         std::vector<Cycle> cycles;
         for (const std::uint32_t i : others) {

@@ -42,9 +42,9 @@ struct ClusterContext {
 /// the whole a basis over the integers. Without `handles` (open or broken surfaces) it is the
 /// forest alone.
 struct ClusterNetwork {
-    std::vector<Connection> connections;   ///< all that the mesh gives, and bridges between shells
-    std::vector<std::uint32_t> spanning;   ///< numbers of those in the tree and of its cycles
-    bool has_all_cycles = true;            ///< false when some cluster has swallowed a handle
+    std::vector<Connection> connections;  ///< all that the mesh gives, and bridges between shells
+    std::vector<std::uint32_t> spanning;  ///< numbers of those in the tree and of its cycles
+    bool has_all_cycles = true;           ///< false when some cluster has swallowed a handle
 };
 ClusterNetwork connect_network(const ClusterContext& context,
                                const std::optional<HandleClasses>& handles);

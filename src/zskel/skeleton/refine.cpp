@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdlib>
 #include <utility>
 
 #include "zskel/core/parallel.h"
@@ -59,10 +58,7 @@ class Refiner {
   public:
     Refiner(CurveGraph& graph, std::span<const Vec3> seed_points, const SurfaceQuery& query,
             const RefineOptions& options)
-        : graph_(graph),
-          seed_points_(seed_points),
-          query_(query),
-          options_(options) {}
+        : graph_(graph), seed_points_(seed_points), query_(query), options_(options) {}
 
     RefineReport run() {
         merge_junctions();
@@ -72,7 +68,7 @@ class Refiner {
         for (int i = 0; i < options_.sweeps; ++i) {
             centre();
             smooth(options_.smoothing);
-            if (options_.unshrink > 0.0) smooth(-options_.unshrink);
+            smooth(-options_.unshrink);
         }
         resample();
         for (Node& node : graph_.nodes) {
@@ -306,8 +302,7 @@ class Refiner {
         }
         std::vector<std::pair<std::uint32_t, Vec3>> targets(moving.size());
         parallel_for(moving.size(), 4, [&](std::size_t begin, std::size_t end) {
-            for (std::size_t i = begin; i < end; ++i)
-                targets[i] = {moving[i], centred(moving[i])};
+            for (std::size_t i = begin; i < end; ++i) targets[i] = {moving[i], centred(moving[i])};
         });
         move(targets);
     }
@@ -318,8 +313,8 @@ class Refiner {
         if (!(glm::length(chord) > 0.0f)) return node.position;
         const Vec3 step = step_to_section_centre(query_, node.position, glm::normalize(chord));
         const auto share = static_cast<float>(options_.centring);
-        const float longest =
-            static_cast<float>(options_.longest_move_radii) * query_.nearest(node.position).distance;
+        const float longest = static_cast<float>(options_.longest_move_radii) *
+                              query_.nearest(node.position).distance;
         const float length = glm::length(step) * share;
         return node.position + step * (length > longest ? share * longest / length : share);
     }

@@ -22,16 +22,16 @@ struct CurveGraph {
 };
 
 struct RefineOptions {
-    double merge_radii = 0.5;            ///< junctions nearer than this become one
-    double tip_gap_radii = 0.5;          ///< ends are extended to this distance from the tip
-    double min_spacing_world = 0.004;    ///< of nodes; between these bounds it is the radius
+    double merge_radii = 0.5;          ///< junctions nearer than this become one
+    double tip_gap_radii = 0.3;        ///< ends are extended to this distance from the tip
+    double min_spacing_world = 0.004;  ///< of nodes; between these bounds it is the radius
     double max_spacing_world = 0.02;
     int smoothing_sweeps = 12;  ///< before, of smoothing alone
-    int sweeps = 6;             ///< of centring and smoothing
-    double centring = 0.7;      ///< share of the step to the section's centre that a sweep takes
-    double longest_move_radii = 0.5;  ///< but no longer than this, in inscribed radii
-    double smoothing = 0.5;     ///< share of the way to the middle of the neighbours,
-    double unshrink = 0.52;     ///< and then away from it, so that bends are not cut
+    int sweeps = 24;            ///< of centring and smoothing
+    double centring = 0.2;      ///< share of the step to the section's centre that a sweep takes
+    double longest_move_radii = 0.3;  ///< but no longer than this, in inscribed radii
+    double smoothing = 0.5;           ///< share of the way to the middle of the neighbours,
+    double unshrink = 0.3;            ///< and then away from it, so that bends are not cut
 };
 
 struct RefineReport {
@@ -47,7 +47,6 @@ CurveGraph build_graph(const ClusterContext& context, std::span<const Connection
 /// No segment that was free is left unfree, and cycles stay.
 /// @param seed_points  where every seed's vertex is on the surface.
 RefineReport refine_graph(CurveGraph& graph, std::span<const Vec3> seed_points,
-                          const SurfaceQuery& query,
-                          const RefineOptions& options);
+                          const SurfaceQuery& query, const RefineOptions& options);
 
 }  // namespace zskel
