@@ -74,12 +74,12 @@ std::vector<Column> surface_columns() {
 
 std::vector<Column> truth_columns() {
     return {
-        {"from_truth", "Truth", "it to us, %",
+        {"from_truth", "Truth", "from it, %",
          "Mean distance from the true skeleton to this one, in percent of the diagonal: high when "
          "something is missing.",
          of_truth([](const TruthScore& t) { return t.from_truth; }), Worse::Higher, std::nullopt, 2,
          100.0},
-        {"to_truth", "Truth", "we to it, %",
+        {"to_truth", "Truth", "to it, %",
          "Mean distance from this skeleton to the true one: high when there is too much.",
          of_truth([](const TruthScore& t) { return t.to_truth; }), Worse::Higher, std::nullopt, 2,
          100.0},

@@ -192,7 +192,7 @@ std::string legend() {
 constexpr const char* kNote =
     "<p class=\"note\">Lengths are in diagonals of the model's bounding box. "
     "<span class=\"swatch bad\">Red</span> fails the model; "
-    "<span class=\"swatch worst1\">amber</span> are the three worst values of a column. "
+    "<span class=\"swatch worst1\">amber</span> marks the three worst values of a column. "
     "A click on a heading sorts.</p>\n";
 
 }  // namespace

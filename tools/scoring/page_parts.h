@@ -6,7 +6,7 @@ namespace zskel::scoring {
 inline constexpr const char* kPageStyle = R"css(
 :root { --ink: #22262c; --soft: #69707a; --line: #e3e5e8; --bad: #f6c9bd; --accent: #0072b2; }
 * { box-sizing: border-box; }
-body { margin: 0 auto; max-width: 1600px; padding: 36px 40px 60px; color: var(--ink);
+body { margin: 0 auto; max-width: 1600px; padding: 34px 32px 60px; color: var(--ink);
   background: #fff; font: 14px/1.45 system-ui, "Segoe UI", "Helvetica Neue", Arial, sans-serif; }
 h1 { margin: 0; font-size: 28px; font-weight: 650; letter-spacing: -0.01em; }
 h2 { margin: 44px 0 14px; font-size: 19px; font-weight: 650; }
@@ -18,7 +18,7 @@ code { font: 13px ui-monospace, "DejaVu Sans Mono", Menlo, monospace; }
 .tile span { color: var(--soft); font-size: 13px; }
 .tile.bad { border-color: transparent; }
 table { width: 100%; border-collapse: collapse; font-variant-numeric: tabular-nums; }
-th, td { padding: 5px 8px; text-align: right; white-space: nowrap; }
+th, td { padding: 5px 6px; text-align: right; white-space: nowrap; }
 th { font-weight: 550; color: var(--soft); font-size: 12.5px; }
 thead tr:first-child th { text-align: center; color: var(--ink); font-weight: 650; padding-bottom: 1px; }
 thead tr:first-child th.group { border-bottom: 1px solid var(--line); }
@@ -28,7 +28,7 @@ thead tr:last-child th:hover { color: var(--accent); }
 th[data-order="1"]::after { content: " \25b4"; } th[data-order="-1"]::after { content: " \25be"; }
 th:first-child, td:first-child { text-align: left; }
 td:first-child { font-weight: 550; }
-.first { padding-left: 20px; }
+th.first, td.first { padding-left: 18px; }
 tbody tr { border-bottom: 1px solid var(--line); }
 tbody tr:hover { background: #f5f8fb; }
 tfoot td { border-top: 2px solid var(--ink); color: var(--soft); font-weight: 550; }

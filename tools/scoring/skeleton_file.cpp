@@ -52,7 +52,7 @@ std::vector<SkeletonGraph::Edge> edges_of(const Json& edges, const NodeNumbers& 
         const bool is_object = edge.is_object();
         const std::uint32_t a = number(is_object ? edge.at("source") : edge.at(0));
         const std::uint32_t b = number(is_object ? edge.at("target") : edge.at(1));
-        if (a != b) pairs.push_back(std::minmax(a, b));
+        if (a != b) pairs.emplace_back(std::min(a, b), std::max(a, b));
     }
     std::sort(pairs.begin(), pairs.end());
     pairs.erase(std::unique(pairs.begin(), pairs.end()), pairs.end());

@@ -74,8 +74,7 @@ std::string shown(const Column& column, std::optional<double> value) {
 
 std::string shown(const Column& column, const Score& score) {
     if (column.key != "topology_wrong") return shown(column, column.value(score));
-    const std::string found =
-        fmt::format("{}, {}", score.topology.components, score.topology.cycles);
+    std::string found = fmt::format("{}, {}", score.topology.components, score.topology.cycles);
     if (score.is_topology_right()) return found;
     return fmt::format("{} not {}, {}", found, score.expected_components,
                        score.expected_cycles ? fmt::to_string(*score.expected_cycles) : "any");

@@ -8,6 +8,8 @@
 
 namespace zskel::scoring {
 
+// The page's legend (columns.cpp) says these in words.
+
 /// What share of a limb, from its free end, is the region that one of our ends has to reach.
 inline constexpr double kTipShare = 1.0 / 3.0;
 /// How far, in radii of the end, that region goes on beyond it: the surface ends a radius or two
