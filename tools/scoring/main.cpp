@@ -191,6 +191,7 @@ int run(int argc, char** argv) {
     } catch (const CLI::ParseError& error) {
         return app.exit(error) == 0 ? 0 : static_cast<int>(ExitCode::Usage);
     }
+    set_log(LogLevel::Info, LogFormat::Text);  // which model it is at
     try {
         return static_cast<int>(arguments.compare.empty() ? score(arguments)
                                                           : compare(arguments.compare));
