@@ -1,0 +1,74 @@
+#include "zskel/self_check.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+
+#include "zskel/core/disjoint_sets.h"
+#include "zskel/visibility/surface_query.h"
+
+namespace zskel {
+namespace {
+
+constexpr int kPlaces = 64;
+
+bool is_inside(const SurfaceQuery& query, const Vec3& point) {
+    return std::abs(query.winding_number(point)) > 0.5;
+}
+
+double share_inside(const SurfaceQuery& query, const Vec3& a, const Vec3& b) {
+    int inside = 0;
+    for (int k = 0; k < kPlaces; ++k) {
+        const float share = (static_cast<float>(k) + 0.5f) / static_cast<float>(kPlaces);
+        inside += is_inside(query, glm::mix(a, b, share)) ? 1 : 0;
+    }
+    return static_cast<double>(inside) / kPlaces;
+}
+
+// Nodes joined by free edges are on one side together.
+std::vector<bool> nodes_inside(const SurfaceQuery& query, const SolidSkeleton& skeleton,
+                               const std::vector<bool>& is_free) {
+    DisjointSets sets(skeleton.nodes.size());
+    for (std::size_t e = 0; e < skeleton.edges.size(); ++e) {
+        if (is_free[e]) sets.unite(skeleton.edges[e].x, skeleton.edges[e].y);
+    }
+    std::vector<bool> inside(skeleton.nodes.size());
+    for (std::uint32_t n = 0; n < skeleton.nodes.size(); ++n) {
+        const std::uint32_t first = sets.find(n);  // the lowest of its set
+        inside[n] = first == n ? is_inside(query, skeleton.nodes[n]) : inside[first];
+    }
+    return inside;
+}
+
+}  // namespace
+
+InsideCheck check_inside(const Solid& solid, const SolidSkeleton& skeleton) {
+    const SurfaceQuery query(solid.surface);
+    std::vector<bool> is_free;
+    for (const glm::uvec2& edge : skeleton.edges)
+        is_free.push_back(!query.first_hit(skeleton.nodes[edge.x], skeleton.nodes[edge.y]));
+    const std::vector<bool> inside = solid.is_closed
+                                         ? nodes_inside(query, skeleton, is_free)
+                                         : std::vector<bool>(skeleton.nodes.size(), true);
+    InsideCheck check;
+    check.least_clearance = std::numeric_limits<double>::infinity();
+    const auto look_at = [&](const Vec3& point, bool is_in) {
+        const auto distance = static_cast<double>(query.nearest(point).distance);
+        check.least_clearance = std::min(check.least_clearance, is_in ? distance : -distance);
+    };
+    for (std::size_t n = 0; n < skeleton.nodes.size(); ++n) look_at(skeleton.nodes[n], inside[n]);
+    for (std::size_t e = 0; e < skeleton.edges.size(); ++e) {
+        const Vec3& a = skeleton.nodes[skeleton.edges[e].x];
+        const Vec3& b = skeleton.nodes[skeleton.edges[e].y];
+        const auto length = static_cast<double>(glm::distance(a, b));
+        const bool is_whole = is_free[e] || !solid.is_closed;
+        const double share =
+            is_whole ? (inside[skeleton.edges[e].x] ? 1.0 : 0.0) : share_inside(query, a, b);
+        check.length += length;
+        check.inside += length * share;
+        look_at(0.5f * (a + b), share > 0.5);
+    }
+    return check;
+}
+
+}  // namespace zskel

@@ -1,0 +1,90 @@
+#include <doctest/doctest.h>
+
+#include <set>
+
+#include "support/shapes.h"
+#include "zskel/mesh/vertex_graph.h"
+#include "zskel/skeleton/coverage.h"
+#include "zskel/skeleton/girth.h"
+#include "zskel/skeleton/patches.h"
+#include "zskel/skeleton/section.h"
+
+using namespace zskel;
+
+namespace {
+
+struct Shape {
+    explicit Shape(const Mesh& mesh)
+        : surface(prepare_surface(mesh, WorldSize::Spread).surface), query(surface) {}
+    Vec3 at(double x, double y, double z) const {
+        return surface.world_from_model.to_world(DVec3(x, y, z));
+    }
+    double model(float world) const {
+        return surface.world_from_model.length_to_model(static_cast<double>(world));
+    }
+    Surface surface;
+    SurfaceQuery query;
+};
+
+}  // namespace
+
+TEST_CASE("the girth is the radius at a ball's centre and 1.15 of it on a tube's axis") {
+    const Shape ball(test::sphere(0.5));
+    CHECK(ball.model(girths_at(ball.query, std::array{ball.at(0, 0, 0)})[0]) ==
+          doctest::Approx(0.5).epsilon(0.01));
+    const Shape tube(test::cylinder(0.1, 2.0));
+    CHECK(tube.model(girths_at(tube.query, std::array{tube.at(0, 0, 0)})[0]) ==
+          doctest::Approx(0.1 / std::sin(std::acos(0.5))).epsilon(0.04));
+}
+
+TEST_CASE("a step to the section's centre lands on a tube's axis, from either side") {
+    const Shape tube(test::cylinder(0.1, 2.0));
+    const auto off = static_cast<float>(0.04 * tube.surface.world_from_model.scale);
+    Vec3 point = tube.at(0, 0, 0) + Vec3(off, 0.0f, 0.0f);
+    for (int i = 0; i < 4; ++i) point += step_to_section_centre(tube.query, point, Vec3(0, 0, 1));
+    CHECK(tube.model(glm::distance(point, tube.at(0, 0, 0))) < 0.002);
+}
+
+TEST_CASE("a ball covers only the places that its centre sees") {
+    const Shape two(test::together(test::sphere(0.5), test::moved(test::sphere(0.5), {1.2, 0, 0})));
+    const Vec3 here = two.at(0.5, 0, 0);
+    const Vec3 there = two.at(0.7, 0, 0);
+    Coverage coverage(two.query, {here, there}, {two.at(0.49, 0, 0), two.at(0.71, 0, 0)});
+    const std::array centre{two.at(0, 0, 0), two.at(0, 0, 0)};
+    const auto radius = static_cast<float>(0.4 * two.surface.world_from_model.scale);
+    coverage.add(centre, radius, radius);
+    CHECK(two.model(coverage.beyond(0)) == doctest::Approx(0.1).epsilon(0.01));
+    CHECK(std::isinf(coverage.beyond(1)));
+}
+
+TEST_CASE("the vertices of every node are one patch, by the nearest node of their limb") {
+    const Shape tube(test::cylinder(0.1, 2.0));
+    std::vector<Vec3> nodes;
+    NodeLinks links;
+    for (std::uint32_t n = 0; n < 10; ++n) {
+        nodes.push_back(tube.at(0, 0, -0.9 + 0.2 * n));
+        links.emplace_back();
+        if (n == 0) continue;
+        links[n].push_back(n - 1);
+        links[n - 1].push_back(n);
+    }
+    const std::vector<std::uint32_t> near(tube.surface.positions.size(), 4);
+    const std::vector<std::uint32_t> patches = assign_patches(tube.surface, nodes, links, near);
+    const VertexGraph graph(tube.surface.positions.size(), tube.surface.edges);
+    std::vector<bool> seen(patches.size(), false);
+    std::set<std::uint32_t> met;
+    for (std::uint32_t first = 0; first < patches.size(); ++first) {
+        if (seen[first]) continue;
+        CHECK(met.insert(patches[first]).second);
+        std::vector<std::uint32_t> patch{first};
+        seen[first] = true;
+        for (std::size_t i = 0; i < patch.size(); ++i) {
+            for (const VertexGraph::Link& link : graph.of(patch[i])) {
+                if (seen[link.vertex] || patches[link.vertex] != patches[first]) continue;
+                seen[link.vertex] = true;
+                patch.push_back(link.vertex);
+            }
+        }
+    }
+    CHECK(met.size() == 10);
+}
