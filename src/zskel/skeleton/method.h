@@ -5,6 +5,7 @@
 #include <string_view>
 #include <vector>
 
+#include "zskel/mesh/small_handles.h"
 #include "zskel/skeleton/cluster.h"
 #include "zskel/skeleton/newton.h"
 #include "zskel/skeleton/refine.h"
@@ -24,7 +25,8 @@ struct SolidSkeleton {
     std::vector<Seed> seeds;
     std::vector<SettledSeed> settled;  ///< of every seed
     std::size_t forest_edges = 0;      ///< edges left when every cycle is opened at its longest
-    std::size_t expected_cycles = 0;   ///< handles; 0 where they are not known
+    std::size_t expected_cycles = 0;   ///< handles but those ignored; 0 where they are not known
+    std::vector<SmallHandle> ignored_handles;
     RefineReport refine;
     std::vector<std::string> warnings;
 };
@@ -53,7 +55,8 @@ struct NewtonMethodOptions {
     double cluster_radii = 0.5;        ///< range within which end points become one, in local radii
     double min_cluster_world = 0.006;  ///< but between these
     double max_cluster_world = 0.05;
-    int max_retries = 4;  ///< each with half the range, when clusters have swallowed a handle
+    int max_retries = 4;  ///< each with half the range where clusters go round a handle
+    double min_handle = 0.0;  ///< handles of a smaller radius get no cycle; model units
     RefineOptions refine;
 };
 SolidSkeleton extract_by_newton(const Surface& surface, bool is_closed, VisibilitySource& source,
