@@ -26,8 +26,8 @@ HandleClasses handles_of(const Mesh& mesh, double min_radius_model = 0.0) {
     const PreparedSurface prepared = prepare_surface(mesh, WorldSize::Spread);
     const double scale = prepared.surface.world_from_model.scale;
     std::string why;
-    auto handles = find_handles(prepared.surface, inner_of(prepared.surface),
-                                min_radius_model * scale, why);
+    auto handles =
+        find_handles(prepared.surface, inner_of(prepared.surface), min_radius_model * scale, why);
     REQUIRE_MESSAGE(handles.has_value(), why);
     for (SmallHandle& handle : handles->ignored) handle.radius /= scale;
     return *std::move(handles);

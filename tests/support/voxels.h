@@ -22,11 +22,11 @@ Mesh voxels(const Grid& grid, int pieces, IsFilled is_filled) {
     Mesh mesh;
     mesh.name = "voxels";
     std::map<std::tuple<int, int, int>, std::uint32_t> known;
-    const auto filled = [&](const int (&c)[3]) {
+    const auto filled = [&](const int(&c)[3]) {
         return c[0] >= 0 && c[1] >= 0 && c[2] >= 0 && c[0] < grid.x && c[1] < grid.y &&
                c[2] < grid.z && is_filled(c[0], c[1], c[2]);
     };
-    const auto add_side = [&](const int (&cube)[3], int axis, int end) {
+    const auto add_side = [&](const int(&cube)[3], int axis, int end) {
         const int u = (axis + 1) % 3;
         const int v = (axis + 2) % 3;
         const auto vertex = [&](int i, int j) {

@@ -66,6 +66,18 @@ Json vertex_node_json(const SkeletonGraph& graph) {
     return list;
 }
 
+// "cut": the loop measured goes round the handle itself; "filled": round the hole.
+Json handles_json(const ExtractResult& result) {
+    Json list = Json::array();
+    for (const IgnoredHandle& handle : result.ignored_handles) {
+        list.push_back({{"radius", handle.radius},
+                        {"position", point(handle.position)},
+                        {"treated_as", handle.is_cut ? "cut" : "filled"},
+                        {"solid", handle.solid}});
+    }
+    return list;
+}
+
 Json statistics_json(const ExtractResult& result) {
     const ExtractStatistics& s = result.statistics;
     const GraphTopology topology = graph_topology(result.graph);
@@ -90,6 +102,7 @@ Json statistics_json(const ExtractResult& result) {
             {"components", topology.components},
             {"cycles", topology.cycles},
             {"expected_cycles", s.expected_cycles},
+            {"ignored_handles", result.ignored_handles.size()},
             {"pruned_branches", s.refine.pruned_branches},
             {"merged_junctions", s.refine.merged_junctions},
             {"extended_ends", s.refine.extended_ends},
@@ -119,6 +132,7 @@ Json options_json(const Provenance& provenance) {
                     {"spacing_thickness", o.newton.spread.spacing_thickness},
                     {"max_steps", o.newton.steps.max_steps},
                     {"cluster_radii", o.newton.cluster_radii},
+                    {"min_handle_model", o.newton.min_handle_model},
                     {"detail", o.newton.refine.detail},
                     {"sweeps", o.newton.refine.sweeps}});
     }
@@ -186,6 +200,7 @@ std::string skeleton_json(const ExtractResult& result, const Provenance& provena
         {"edges", rows(edges_json(result.graph))},
         {"branches", rows(branches_json(result.graph))},
         {"vertex_node", text(vertex_node_json(result.graph))},
+        {"ignored_handles", rows(handles_json(result))},
         {"statistics", text(statistics_json(result))},
         {"warnings", rows(Json(result.warnings))},
         {"provenance", text(provenance_json(provenance, result.surface.world_from_model))}};

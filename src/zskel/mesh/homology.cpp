@@ -81,8 +81,7 @@ class HandleFinder {
 
   private:
     void ignore_small(double min_radius_world) {
-        const SmallHandles small =
-            find_small_handles(surface_, system_, links_, min_radius_world);
+        const SmallHandles small = find_small_handles(surface_, system_, links_, min_radius_world);
         out_.ignored = small.handles;
         std::vector<Class> cuts;
         for (std::size_t k = 0; k < small.loops.size(); ++k) {

@@ -46,7 +46,7 @@ class HandleClasses {
     friend class CycleBasis;
 
     std::size_t cuts_ = 0;
-    std::vector<Class> filled_;             // of the small handles that are filled
+    std::vector<Class> filled_;          // of the small handles that are filled
     std::vector<glm::uvec2> edge_span_;  // an edge's class is the difference of two sums
     std::vector<Class> sums_;            // over the sides before each; see LoopSystem
     std::vector<std::uint64_t> edge_sums_;
@@ -73,7 +73,8 @@ class CycleBasis {
 /// @param min_radius_world  handles smaller than this are ignored; see SmallHandle.
 /// @return nothing when the surface is not closed, oriented and manifold, or when the linking
 /// numbers do not have rank g (surfaces that cut through themselves); `why` then says so.
-/// Work: O(n log n) for the loops, the edges' passages for the numbers, at most O(g^3) for the basis.
+/// Work: O(n log n) for the loops, the edges' passages for the numbers, at most O(g^3) for the
+/// basis.
 std::optional<HandleClasses> find_handles(const Surface& surface, const std::vector<Vec3>& inner,
                                           double min_radius_world, std::string& why);
 

@@ -1,6 +1,6 @@
 // Linking numbers by counting: two closed curves link as often as one passes over the other, signs
-// taken, in any projection. The degenerate cases are those of Edelsbrunner and Muecke's Simulation of
-// Simplicity (1990), with one step for everything on the upper curve.
+// taken, in any projection. The degenerate cases are those of Edelsbrunner and Muecke's Simulation
+// of Simplicity (1990), with one step for everything on the upper curve.
 #include "zskel/mesh/linking.h"
 
 #include <algorithm>
@@ -14,7 +14,7 @@
 namespace zskel {
 namespace {
 
-constexpr int kGridBits = 28;       // of a coordinate, without its sign
+constexpr int kGridBits = 28;      // of a coordinate, without its sign
 constexpr int kMostCellBits = 10;  // of the number of cells along a side
 
 // A rotation without any pattern: quaternion (1, 2^(1/2), 3^(1/3), 5^(1/5)), normalised.
@@ -61,8 +61,8 @@ Passages::Point Passages::project(const Vec3& position) const {
 }
 
 std::int64_t Passages::cell(std::int64_t coordinate) const {
-    return std::clamp<std::int64_t>((coordinate + (std::int64_t{1} << kGridBits)) >> cell_shift_,
-                                    0, cells_ - 1);
+    return std::clamp<std::int64_t>((coordinate + (std::int64_t{1} << kGridBits)) >> cell_shift_, 0,
+                                    cells_ - 1);
 }
 
 // The sign of the crossing where the first segment runs over the second; 0 where it does not.

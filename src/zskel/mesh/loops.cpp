@@ -1,7 +1,7 @@
-// Erickson and Whittlesey, "Greedy optimal homotopy and homology generators", 2005. Coordinates come from
-// the dual tree: round every triangle the classes of its edges sum to zero, so the class of an edge
-// that the dual tree crosses is the sum of the loops' own edges round the branch of the tree behind
-// it. In the tree's order these are neighbours, and two numbers hold them.
+// Erickson and Whittlesey, "Greedy optimal homotopy and homology generators", 2005. Coordinates
+// come from the dual tree: round every triangle the classes of its edges sum to zero, so the class
+// of an edge that the dual tree crosses is the sum of the loops' own edges round the branch of the
+// tree behind it. In the tree's order these are neighbours, and two numbers hold them.
 #include "zskel/mesh/loops.h"
 
 #include <algorithm>

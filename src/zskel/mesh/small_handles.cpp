@@ -1,7 +1,7 @@
-// A shortest loop through a vertex is two shortest paths and an edge between them, as in Erickson and
-// Whittlesey (2005). Which loops bound inside, or outside, is told by sums of random numbers along
-// them, one linear in the classes inside and one in those outside, before the few shortest are looked
-// at exactly.
+// A shortest loop through a vertex is two shortest paths and an edge between them, as in Erickson
+// and Whittlesey (2005). Which loops bound inside, or outside, is told by sums of random numbers
+// along them, one linear in the classes inside and one in those outside, before the few shortest
+// are looked at exactly.
 #include "zskel/mesh/small_handles.h"
 
 #include <algorithm>
@@ -180,8 +180,8 @@ class Search {
             const Vector own = coordinates(loop);
             if (!is_apart(own, out)) continue;
             if (!(f.is_cut ? cut.extend(linked_by(own)) : filled.extend(links_with(own)))) continue;
-            out.handles.push_back({0.5 * static_cast<double>(f.length) / std::numbers::pi,
-                                   mean_of(loop), f.is_cut});
+            out.handles.push_back(
+                {0.5 * static_cast<double>(f.length) / std::numbers::pi, mean_of(loop), f.is_cut});
             out.loops.push_back(own);
         }
         return out;
@@ -214,9 +214,8 @@ class Search {
                 paths.each_loop([&](std::uint32_t edge, float length, const Sums& sums) {
                     if (length > max_length_ || (sums.inside == 0) == (sums.outside == 0)) return;
                     const std::uint64_t key = sums.inside + sums.outside;
-                    keep_shortest(
-                        {length, from[i], edge, sums.inside == 0, std::min(key, 0 - key)},
-                        of_root[i]);
+                    keep_shortest({length, from[i], edge, sums.inside == 0, std::min(key, 0 - key)},
+                                  of_root[i]);
                 });
             }
         });
@@ -230,9 +229,8 @@ class Search {
         }
         std::vector<Found> out;
         for (const auto& [key, found] : shortest) out.push_back(found);
-        std::sort(out.begin(), out.end(), [](const Found& l, const Found& r) {
-            return by_length(l) < by_length(r);
-        });
+        std::sort(out.begin(), out.end(),
+                  [](const Found& l, const Found& r) { return by_length(l) < by_length(r); });
         return out;
     }
 

@@ -21,8 +21,9 @@ struct SmallHandle {
 /// Small handles, and what ignoring them means: the solid is cut at a thin handle, and a narrow
 /// hole is filled.
 struct SmallHandles {
-    std::vector<SmallHandle> handles;           ///< smallest first
-    std::vector<IntegerBasis::Vector> loops;    ///< of each: how often it runs along each loop of the system
+    std::vector<SmallHandle> handles;  ///< smallest first
+    std::vector<IntegerBasis::Vector>
+        loops;  ///< of each: how often it runs along each loop of the system
 };
 
 /// The handles with a loop of at most 2 pi `max_radius`, found for certain where it is a twentieth

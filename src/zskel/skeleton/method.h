@@ -55,8 +55,8 @@ struct NewtonMethodOptions {
     double cluster_radii = 0.5;        ///< range within which end points become one, in local radii
     double min_cluster_world = 0.006;  ///< but between these
     double max_cluster_world = 0.05;
-    int max_retries = 4;  ///< each with half the range where clusters go round a handle
-    double min_handle = 0.0;  ///< handles of a smaller radius get no cycle; model units
+    int max_retries = 4;            ///< each with half the range where clusters go round a handle
+    double min_handle_model = 0.0;  ///< handles of a smaller radius get no cycle; see SmallHandle
     RefineOptions refine;
 };
 SolidSkeleton extract_by_newton(const Surface& surface, bool is_closed, VisibilitySource& source,

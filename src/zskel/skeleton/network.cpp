@@ -1,7 +1,7 @@
 #include "zskel/skeleton/network.h"
 
 #include <algorithm>
-#include <map>
+#include <numbers>
 #include <numeric>
 #include <set>
 #include <tuple>
@@ -24,6 +24,13 @@ struct Candidate {
 
 void add_to(Class& sum, const Class& other, std::int64_t sign) {
     for (std::size_t k = 0; k < sum.size(); ++k) sum[k] += sign * other[k];
+}
+
+float distance_to(const Vec3& from, const Vec3& to, const Vec3& point) {
+    const Vec3 way = to - from;
+    const float length2 = glm::dot(way, way);
+    const float share = length2 > 0.0f ? glm::dot(point - from, way) / length2 : 0.0f;
+    return glm::distance(point, from + way * std::clamp(share, 0.0f, 1.0f));
 }
 
 class Connector {
@@ -141,11 +148,9 @@ class Connector {
     std::vector<std::uint32_t> order() const {
         std::vector<std::uint32_t> out(candidates_.size());
         std::iota(out.begin(), out.end(), 0u);
-        std::vector<bool> is_cut(candidates_.size(), false);
-        if (handles_.width() > handles_.genus) {
-            for (std::size_t i = 0; i < is_cut.size(); ++i)
-                is_cut[i] = handles_.is_cut(class_of(candidates_[i]));
-        }
+        std::vector<bool> is_cut;
+        for (const Candidate& candidate : candidates_)
+            is_cut.push_back(goes_through_cut(candidate.connection.path));
         std::stable_sort(out.begin(), out.end(), [&](auto l, auto r) {
             const Connection& a = candidates_[l].connection;
             const Connection& b = candidates_[r].connection;
@@ -153,6 +158,18 @@ class Connector {
                    std::tuple(!b.is_inside, bool(is_cut[r]), b.length);
         });
         return out;
+    }
+
+    // Whether a path comes as near the middle of a cut handle as its loop at most is.
+    bool goes_through_cut(std::span<const Vec3> path) const {
+        for (const SmallHandle& handle : handles_.ignored) {
+            if (!handle.is_cut) continue;
+            const auto reach = static_cast<float>(0.5 * std::numbers::pi * handle.radius);
+            for (std::size_t i = 1; i < path.size(); ++i) {
+                if (distance_to(path[i - 1], path[i], handle.position) < reach) return true;
+            }
+        }
+        return false;
     }
 
     void walk_tree() {

@@ -11,7 +11,8 @@ namespace zskel {
 
 /// Where clusters meet on the surface, and how they are joined inside.
 struct Connection {
-    std::uint32_t a = 0;  ///< clusters, a <= b; both are one where its own patch goes round a handle
+    std::uint32_t a =
+        0;  ///< clusters, a <= b; both are one where its own patch goes round a handle
     std::uint32_t b = 0;
     std::uint32_t vertex_a = 0;  ///< a mesh edge from a's patch to b's
     std::uint32_t vertex_b = 0;

@@ -28,10 +28,11 @@ HandleClasses handles_of(const Surface& surface, const std::vector<Vec3>& inner,
                          const NewtonMethodOptions& options, std::vector<std::string>& warnings) {
     if (!is_closed) return {};
     std::string why;
-    const double min_radius = options.min_handle * surface.world_from_model.scale;
+    const double min_radius = options.min_handle_model * surface.world_from_model.scale;
     std::optional<HandleClasses> handles = find_handles(surface, inner, min_radius, why);
     if (handles) return std::move(*handles);
-    warnings.push_back(fmt::format("cycles cannot be told from wrong connections: {}", why));
+    warnings.push_back(fmt::format(
+        "the skeleton of a part is left without cycles, since they are not known: {}", why));
     return {};
 }
 
@@ -118,9 +119,8 @@ SolidSkeleton extract_by_newton(const Surface& surface, bool is_closed, Visibili
         if (attempt < options.max_retries && split_rings(network, clusters, ranges)) continue;
         if (!network.has_all_cycles)
             out.warnings.emplace_back("a cycle is missing: no way for it was found inside");
-        const auto unfree =
-            std::count_if(network.connections.begin(), network.connections.end(),
-                          [](const Connection& c) { return !c.is_inside; });
+        const auto unfree = std::count_if(network.connections.begin(), network.connections.end(),
+                                          [](const Connection& c) { return !c.is_inside; });
         if (unfree > 0)
             out.warnings.push_back(fmt::format("{} connections could not be laid inside", unfree));
         graph = build_graph(context, network.connections);

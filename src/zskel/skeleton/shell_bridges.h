@@ -7,10 +7,10 @@
 
 namespace zskel {
 
-/// The mesh joins nothing across a solid's shells (a ball with a cavity): joins the sets of clusters
-/// by the shortest straight connections that are free, and where none is, by the shortest, marked
-/// as not inside. No cycle comes of it, and none is missed: what goes round inside a solid goes
-/// round on its shells.
+/// The mesh joins nothing across a solid's shells (a ball with a cavity): joins the sets of
+/// clusters by the shortest straight connections that are free, and where none is, by the shortest,
+/// marked as not inside. No cycle comes of it, and none is missed: what goes round inside a solid
+/// goes round on its shells.
 void bridge_shells(const ClusterContext& context, DisjointSets& sets,
                    std::vector<Connection>& connections);
 

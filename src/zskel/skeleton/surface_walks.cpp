@@ -56,8 +56,8 @@ glm::uvec2 SurfaceWalks::link_between(std::uint32_t from, std::uint32_t to) cons
 
 std::uint64_t SurfaceWalks::link_sum(std::uint32_t from, std::uint32_t to) const {
     const glm::uvec2 link = link_between(from, to);
-    return cell_sums_[link.x] +
-           handles_.edge_sum(edge_between(link.x, link.y), link.x < link.y) - cell_sums_[link.y];
+    return cell_sums_[link.x] + handles_.edge_sum(edge_between(link.x, link.y), link.x < link.y) -
+           cell_sums_[link.y];
 }
 
 void SurfaceWalks::add_cell_class(Class& sum, std::uint32_t vertex, bool is_forward) const {
@@ -180,8 +180,7 @@ std::vector<Vec3> SurfaceWalks::short_way_to(std::uint32_t vertex) const {
 
 std::uint64_t SurfaceWalks::sum_of(std::span<const Vec3> path) const {
     std::uint64_t sum = 0;
-    for (std::size_t i = 1; i < path.size(); ++i)
-        sum += handles_.segment_sum(path[i - 1], path[i]);
+    for (std::size_t i = 1; i < path.size(); ++i) sum += handles_.segment_sum(path[i - 1], path[i]);
     return sum;
 }
 

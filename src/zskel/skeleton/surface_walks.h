@@ -81,8 +81,8 @@ class SurfaceWalks {
     VertexGraph graph_;
     std::map<std::pair<std::uint32_t, std::uint32_t>, glm::uvec2>
         links_;  // of seeds, lower first: vertices of an edge from one's patch to the other's
-    std::vector<std::uint64_t> cell_sums_;  // of every vertex: from its seed's
-    std::vector<std::uint64_t> seed_sums_;  // of every seed's vertex: from the centre
+    std::vector<std::uint64_t> cell_sums_;            // of every vertex: from its seed's
+    std::vector<std::uint64_t> seed_sums_;            // of every seed's vertex: from the centre
     std::vector<HandleClasses::Class> seed_classes_;  // from the centre's own seed's vertex
     std::vector<Way> ways_;                           // of every seed: from the one before it
     std::vector<std::uint32_t> central_;              // of every cluster: the seed at its centre
