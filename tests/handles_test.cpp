@@ -62,6 +62,12 @@ TEST_CASE("handles: plates, bars and suitcases have their cycles, and the right 
     check_right(extract(test::slab_with_handles(3, 2)), 18);
 }
 
+TEST_CASE("handles: five hundred of them") {
+    ExtractOptions options;
+    options.newton.refine.sweeps = 0;
+    check_right(extract(test::plate_with_holes(20, 25, 1), options), 500);
+}
+
 TEST_CASE("handles: more of them than seeds round them are found all the same") {
     check_right(extract(test::plate_with_holes(8, 8, 2), few_seeds(40)), 64);
     check_right(extract(test::jungle_gym(2, 3), few_seeds(30)), 28);

@@ -117,23 +117,10 @@ std::vector<std::uint32_t> loop_edges(const Surface& surface, const EdgeSides& s
     return left;
 }
 
-// The closed walk root .. x, y .. root; the shared way to the root is left out.
-std::vector<std::uint32_t> loop_of(const glm::uvec2& edge, const PathTree& tree) {
-    const auto way = [&](std::uint32_t v) {
-        std::vector<std::uint32_t> path{v};
-        while (tree.parent[v] != v) path.push_back(v = tree.parent[v]);
-        return path;
-    };
-    std::vector<std::uint32_t> a = way(edge.x);
-    std::vector<std::uint32_t> b = way(edge.y);
-    while (a.size() > 1 && b.size() > 1 && a[a.size() - 2] == b[b.size() - 2]) {
-        a.pop_back();
-        b.pop_back();
-    }
-    std::reverse(a.begin(), a.end());  // meeting point .. x
-    b.pop_back();                      // y .. before the meeting point
-    a.insert(a.end(), b.begin(), b.end());
-    return a;
+std::vector<std::uint32_t> way_to_root(std::uint32_t v, const PathTree& tree) {
+    std::vector<std::uint32_t> path{v};
+    while (tree.parent[path.back()] != path.back()) path.push_back(tree.parent[path.back()]);
+    return path;
 }
 
 // Walks the dual tree depth first, numbers the sides of the loops' own edges as they are met, and
@@ -215,9 +202,23 @@ std::optional<LoopSystem> find_loops(const Surface& surface) {
     std::vector<bool> is_dual_edge;
     const std::vector<std::uint32_t> closing = loop_edges(surface, sides, tree, is_dual_edge);
     LoopSystem out;
-    for (const std::uint32_t e : closing) out.loops.push_back(loop_of(surface.edges[e], tree));
+    for (const std::uint32_t e : closing) {
+        out.loops.push_back(joined_ways(way_to_root(surface.edges[e].x, tree),
+                                        way_to_root(surface.edges[e].y, tree)));
+    }
     SpanFinder(sides, is_dual_edge, closing, out).run();
     return out;
+}
+
+std::vector<std::uint32_t> joined_ways(std::vector<std::uint32_t> a, std::vector<std::uint32_t> b) {
+    while (a.size() > 1 && b.size() > 1 && a[a.size() - 2] == b[b.size() - 2]) {
+        a.pop_back();
+        b.pop_back();
+    }
+    std::reverse(a.begin(), a.end());
+    b.pop_back();
+    a.insert(a.end(), b.begin(), b.end());
+    return a;
 }
 
 }  // namespace zskel

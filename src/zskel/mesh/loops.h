@@ -30,4 +30,8 @@ struct LoopSystem {
 /// @see Erickson and Whittlesey 2005.
 std::optional<LoopSystem> find_loops(const Surface& surface);
 
+/// The closed walk from where two ways to one root meet along the first, over the edge between
+/// their first vertices, and back along the second; it starts at the meeting point.
+std::vector<std::uint32_t> joined_ways(std::vector<std::uint32_t> a, std::vector<std::uint32_t> b);
+
 }  // namespace zskel

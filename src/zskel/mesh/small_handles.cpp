@@ -5,14 +5,13 @@
 #include "zskel/mesh/small_handles.h"
 
 #include <algorithm>
-#include <functional>
 #include <map>
 #include <numbers>
-#include <queue>
 #include <tuple>
 #include <utility>
 
 #include "zskel/core/parallel.h"
+#include "zskel/mesh/local_paths.h"
 #include "zskel/mesh/vertex_graph.h"
 
 namespace zskel {
@@ -22,22 +21,9 @@ using Vector = IntegerBasis::Vector;
 
 constexpr double kRootSpacing = 0.125;  // of the places looked at, in radii
 
-// Sums of random numbers along walks: zero when the walk bounds inside, or outside.
-struct Sums {
-    std::uint64_t inside = 0;
-    std::uint64_t outside = 0;
-
-    Sums operator+(const Sums& other) const {
-        return {inside + other.inside, outside + other.outside};
-    }
-    Sums operator-(const Sums& other) const {
-        return {inside - other.inside, outside - other.outside};
-    }
-};
-
 // Of every edge, low to high vertex.
-std::vector<Sums> edge_sums(const LoopSystem& system, const std::vector<Vector>& links) {
-    std::vector<Sums> of_loop(system.loops.size());
+std::vector<WalkSums> edge_sums(const LoopSystem& system, const std::vector<Vector>& links) {
+    std::vector<WalkSums> of_loop(system.loops.size());
     for (std::size_t i = 0; i < links.size(); ++i) {
         for (std::size_t j = 0; j < links.size(); ++j) {
             const auto value = static_cast<std::uint64_t>(links[i][j]);
@@ -45,90 +31,15 @@ std::vector<Sums> edge_sums(const LoopSystem& system, const std::vector<Vector>&
             of_loop[j].outside += value * random_number(i);
         }
     }
-    std::vector<Sums> before{{}};
+    std::vector<WalkSums> before{{}};
     for (const LoopSystem::Side& side : system.sides) {
-        const Sums& own = of_loop[side.loop];
+        const WalkSums& own = of_loop[side.loop];
         before.push_back(side.sign > 0 ? before.back() + own : before.back() - own);
     }
-    std::vector<Sums> out;
+    std::vector<WalkSums> out;
     for (const glm::uvec2& span : system.edge_span) out.push_back(before[span.y] - before[span.x]);
     return out;
 }
-
-// Shortest paths from one vertex as far as a radius; made once, run often.
-class LocalPaths {
-  public:
-    LocalPaths(const Surface& surface, const VertexGraph& graph, const std::vector<Sums>& sums)
-        : surface_(surface), graph_(graph), edge_sums_(sums), at_(graph.size()) {}
-
-    void run(std::uint32_t root, float radius) {
-        for (const std::uint32_t v : reached_) at_[v] = {};
-        reached_.clear();
-        using Entry = std::pair<float, std::uint32_t>;
-        std::priority_queue<Entry, std::vector<Entry>, std::greater<>> front;
-        at_[root] = {0.0f, root, kNone, {}};
-        front.emplace(0.0f, root);
-        reached_.push_back(root);
-        while (!front.empty()) {
-            const auto [distance, v] = front.top();
-            front.pop();
-            if (distance > at_[v].distance) continue;
-            for (const VertexGraph::Link& link : graph_.of(v)) {
-                const float along = distance + length(v, link.vertex);
-                Place& next = at_[link.vertex];
-                if (along > radius || along >= next.distance) continue;
-                if (next.distance == kInfinity) reached_.push_back(link.vertex);
-                next = {along, v, link.edge, at_[v].sums + along_edge(v, link)};
-                front.emplace(along, link.vertex);
-            }
-        }
-    }
-
-    // Calls visit(edge, length, sums) for every loop that one edge closes.
-    template <typename Visit>
-    void each_loop(Visit visit) const {
-        for (const std::uint32_t v : reached_) {
-            for (const VertexGraph::Link& link : graph_.of(v)) {
-                const Place& other = at_[link.vertex];
-                if (v > link.vertex || other.distance == kInfinity) continue;
-                if (other.edge == link.edge || at_[v].edge == link.edge) continue;
-                visit(link.edge, at_[v].distance + other.distance + length(v, link.vertex),
-                      at_[v].sums + along_edge(v, link) - other.sums);
-            }
-        }
-    }
-
-    const std::vector<std::uint32_t>& reached() const { return reached_; }
-
-    std::vector<std::uint32_t> path_to(std::uint32_t v) const {
-        std::vector<std::uint32_t> path{v};
-        while (at_[v].edge != kNone) path.push_back(v = at_[v].parent);
-        return path;
-    }
-
-    const VertexGraph& graph() const { return graph_; }
-
-  private:
-    struct Place {
-        float distance = kInfinity;
-        std::uint32_t parent = kNone;
-        std::uint32_t edge = kNone;  // to the parent
-        Sums sums;                   // from the root
-    };
-
-    float length(std::uint32_t a, std::uint32_t b) const {
-        return glm::distance(surface_.positions[a], surface_.positions[b]);
-    }
-    Sums along_edge(std::uint32_t v, const VertexGraph::Link& link) const {
-        return v < link.vertex ? edge_sums_[link.edge] : Sums{} - edge_sums_[link.edge];
-    }
-
-    const Surface& surface_;
-    const VertexGraph& graph_;
-    const std::vector<Sums>& edge_sums_;
-    std::vector<Place> at_;
-    std::vector<std::uint32_t> reached_;
-};
 
 struct Found {
     float length;
@@ -176,7 +87,9 @@ class Search {
         for (const Found& f : found) {
             if (out.handles.size() == genus) break;
             paths.run(f.root, 0.5f * max_length_);
-            const std::vector<std::uint32_t> loop = loop_of(paths, surface_.edges[f.edge]);
+            const glm::uvec2& edge = surface_.edges[f.edge];
+            const std::vector<std::uint32_t> loop =
+                joined_ways(paths.path_from(edge.x), paths.path_from(edge.y));
             const Vector own = coordinates(loop);
             if (!is_apart(own, out)) continue;
             if (!(f.is_cut ? cut.extend(linked_by(own)) : filled.extend(links_with(own)))) continue;
@@ -211,7 +124,7 @@ class Search {
             LocalPaths paths(surface_, graph_, sums_);
             for (std::size_t i = begin; i < end; ++i) {
                 paths.run(from[i], 0.5f * max_length_);
-                paths.each_loop([&](std::uint32_t edge, float length, const Sums& sums) {
+                paths.each_loop([&](std::uint32_t edge, float length, const WalkSums& sums) {
                     if (length > max_length_ || (sums.inside == 0) == (sums.outside == 0)) return;
                     const std::uint64_t key = sums.inside + sums.outside;
                     keep_shortest({length, from[i], edge, sums.inside == 0, std::min(key, 0 - key)},
@@ -232,19 +145,6 @@ class Search {
         std::sort(out.begin(), out.end(),
                   [](const Found& l, const Found& r) { return by_length(l) < by_length(r); });
         return out;
-    }
-
-    static std::vector<std::uint32_t> loop_of(const LocalPaths& paths, const glm::uvec2& edge) {
-        std::vector<std::uint32_t> a = paths.path_to(edge.x);
-        std::vector<std::uint32_t> b = paths.path_to(edge.y);
-        while (a.size() > 1 && b.size() > 1 && a[a.size() - 2] == b[b.size() - 2]) {
-            a.pop_back();
-            b.pop_back();
-        }
-        std::reverse(a.begin(), a.end());
-        b.pop_back();
-        a.insert(a.end(), b.begin(), b.end());
-        return a;
     }
 
     Vec3 mean_of(const std::vector<std::uint32_t>& loop) const {
@@ -310,7 +210,7 @@ class Search {
     const LoopSystem& system_;
     const std::vector<Vector>& links_;
     VertexGraph graph_;
-    std::vector<Sums> sums_;
+    std::vector<WalkSums> sums_;
     float max_length_;
     float root_spacing_;
 };
