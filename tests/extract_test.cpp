@@ -7,6 +7,7 @@
 
 #include "support/shapes.h"
 #include "zskel/core/parallel.h"
+#include "zskel/io/skeleton_formats.h"
 #include "zskel/io/skeleton_json.h"
 
 using namespace zskel;
@@ -95,7 +96,8 @@ TEST_CASE("extract_skeleton: the same at one thread and at many") {
     const ExtractResult one = extract_by_rays(mesh, paper());
     set_thread_limit(0);
     const ExtractResult many = extract_by_rays(mesh, paper());
-    CHECK(skeleton_obj(one.graph) == skeleton_obj(many.graph));
+    CHECK(write_skeleton(one.graph, SkeletonFormat::ObjLines) ==
+          write_skeleton(many.graph, SkeletonFormat::ObjLines));
     CHECK(one.graph.vertex_node == many.graph.vertex_node);
 }
 
@@ -135,11 +137,11 @@ TEST_CASE("skeleton_json: holds nodes, edges, vertex map, statistics and provena
     CHECK(json["seeds"][3]["path"].size() == json["seeds"][3]["steps"].get<std::size_t>() + 1);
 }
 
-TEST_CASE("skeleton_obj: a v for each node and an l for each edge") {
+TEST_CASE("write_skeleton: OBJ lines have a v for each node and an l for each edge") {
     SkeletonGraph graph;
     graph.nodes = {{{0.5, 0, -1e-9}, 1, 0}, {{1, 2, 3}, 1, 0}};
     graph.edges = {{0, 1}};
-    CHECK(skeleton_obj(graph) ==
+    CHECK(write_skeleton(graph, SkeletonFormat::ObjLines) ==
           "# zskel curve skeleton: v = node, l = edge\nv 0.5 0 -1e-09\nv 1 2 3\nl 1 2\n");
 }
 

@@ -5,7 +5,7 @@
 #include "support/shapes.h"
 #include "zskel/core/parallel.h"
 #include "zskel/extract.h"
-#include "zskel/io/skeleton_json.h"
+#include "zskel/io/skeleton_formats.h"
 #include "zskel/mesh/solid.h"
 #include "zskel/skeleton/spread.h"
 #include "zskel/visibility/cube_map.h"
@@ -127,7 +127,8 @@ TEST_CASE("newton: the same at one thread and at many") {
     const ExtractResult one = extract(test::torus(0.35, 0.12, 32, 16));
     set_thread_limit(0);
     const ExtractResult many = extract(test::torus(0.35, 0.12, 32, 16));
-    CHECK(skeleton_obj(one.graph) == skeleton_obj(many.graph));
+    CHECK(write_skeleton(one.graph, SkeletonFormat::ObjLines) ==
+          write_skeleton(many.graph, SkeletonFormat::ObjLines));
     CHECK(one.graph.vertex_node == many.graph.vertex_node);
 }
 

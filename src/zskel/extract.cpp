@@ -112,11 +112,9 @@ class Assembler {
         sums.cavities += solid.cavity_count;
         sums.forest_edges += part.forest_edges;
         sums.seeds += part.seeds.size();
-        sums.evaluations += part.refine.evaluations;
         sums.expected_cycles += part.expected_cycles;
-        sums.refine.evaluations += part.refine.evaluations;
-        sums.refine.pruned_branches += part.refine.pruned_branches;
-        sums.refine.pruned_length_world += part.refine.pruned_length_world;
+        sums.limbs += part.limbs;
+        sums.rejected_limbs += part.rejected_limbs;
         sums.refine.merged_junctions += part.refine.merged_junctions;
         sums.refine.extended_ends += part.refine.extended_ends;
         result_.warnings.insert(result_.warnings.end(), part.warnings.begin(), part.warnings.end());

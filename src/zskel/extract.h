@@ -71,7 +71,9 @@ struct ExtractStatistics {
     std::size_t seeds = 0;
     std::size_t evaluations = 0;
     std::size_t expected_cycles =
-        0;  ///< handles of the closed solids, but those ignored; newton only
+        0;                  ///< handles of the closed solids, but those ignored; newton only
+    std::size_t limbs = 0;  ///< branches grown; newton only
+    std::size_t rejected_limbs = 0;  ///< that were too small
     RefineReport refine;
     std::size_t forest_edges =
         0;  ///< edges that are left when every cycle is opened at its longest

@@ -86,7 +86,7 @@ case_help() {
     grep -qF 'Exit codes:' out || fail "the exit codes are not listed"
     local commands
     commands=$(sed -n '/^Subcommands:/,/^$/s/^  \([a-z]\+\) .*/\1/p' out)
-    for command in extract check compare doctor; do
+    for command in extract convert check compare doctor; do
         grep -qx "$command" <<<"$commands" || fail "no subcommand $command"
     done
     for command in $commands; do
@@ -449,6 +449,50 @@ found = json.load(open("out"))
 assert found["auto_takes"] == "ray" and found["candidates"]
 assert all(not c["usable"] and c["reason"] and c["advice"] for c in found["candidates"])
 END
+}
+
+case_formats() {
+    local form
+    for form in graphml swc obj ply vtp polylines.txt gltf glb; do
+        run 0 extract cube.obj "${fast[@]}" -o "a.$form"
+        [[ -s a.$form ]] || fail "nothing in a.$form"
+    done
+    # What does not go together is refused before any work: this would take hours.
+    local hours=(--method paper --backend ray --face-px 64 --step 0.000001 --max-steps 1000000)
+    refused 2 'a.txt' extract cube.obj "${hours[@]}" -o a.txt
+    refused 2 '--tubes' extract cube.obj "${hours[@]}" --tubes -o a.swc
+    refused 2 '--node-link' extract cube.obj "${hours[@]}" --node-link -o a.swc
+    refused 2 '--with-seeds' extract cube.obj "${hours[@]}" --with-seeds -o a.swc
+    refused 2 'two outputs' extract cube.obj "${hours[@]}" -o b.vtp --correspondence b.vtp
+    run 0 extract cube.obj "${fast[@]}" -o a.json --correspondence a.correspondence.polylines.txt
+    [[ $(grep -c '^2 ' a.correspondence.polylines.txt) == $(grep -c '^v ' cube.obj) ]] || fail "the correspondence"
+
+    run 0 convert a.json -o odd.name --format swc
+    cmp -s <(grep -v '^#' odd.name) <(grep -v '^#' a.swc) || fail "extract and convert differ"
+    run 0 convert a.json --node-link
+    is_json out || fail "no JSON"
+    "$zskel" convert - --from swc --format graphml <a.swc >out 2>err || fail "streams: exit code $?"
+    grep -q '<graphml' out || fail "no GraphML"
+    run 0 convert a.swc -o b.obj
+    grep -q '^zskel: warning: b.obj: the radii' err || fail "no warning that radii are lost"
+    run 0 convert b.obj -o b.polylines.txt
+    [[ ! -s err ]] || fail "a warning about radii that were not there"
+    refused 2 '--radius' convert b.obj -o b.swc
+    refused 2 '--radius' convert b.obj --tubes -o c.obj
+    run 0 convert b.obj --radius 0.25 -o b.swc
+    refused 2 '--radius' convert b.swc --radius 1 -o b.json
+    refused 2 '--from' convert - -o b.json
+    refused 2 'glb' convert a.glb -o b.json
+    refused 2 'b.swc' convert b.swc -o ./b.swc
+    refused 2 'a.txt' convert b.swc -o a.txt
+    refused 2 'nosuch' convert b.swc --format nosuch
+    refused 3 'zskel extract' convert cube.obj -o b.json
+    refused 3 'none.swc' convert none.swc
+    printf '1 0 0 0 0 1 -1\n2 0 0 0 x 1 1\n' >bad.swc
+    echo old >kept.json
+    refused 3 "bad.swc:2: coordinate z 'x'" convert bad.swc -o kept.json
+    [[ $(cat kept.json) == old ]] || fail "the output that was there is gone"
+    refused 5 'none/b.json' convert b.swc -o none/b.json
 }
 
 case_check_failed() {

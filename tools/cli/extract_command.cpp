@@ -8,6 +8,7 @@
 
 #include "command.h"
 #include "depth_files.h"
+#include "skeleton_output.h"
 #include "zskel/core/log.h"
 #include "zskel/extract.h"
 #include "zskel/io/output_file.h"
@@ -20,8 +21,8 @@ namespace {
 
 struct Arguments {
     std::string model;
-    std::string output = "-";
-    std::string format;
+    SkeletonOutput output;
+    std::string correspondence;
     bool stats = false;
     std::string picture;
     std::string picture_paths;
@@ -78,16 +79,17 @@ std::string stats_text(const std::string& model, const ExtractResult& result) {
         result.graph.nodes.size(), result.graph.edges.size(), s.evaluations);
 }
 
-bool ends_with(const std::string& text, std::string_view end) {
-    return text.size() >= end.size() &&
-           text.compare(text.size() - end.size(), end.size(), end) == 0;
-}
-
-std::string skeleton_text(const Arguments& arguments, const ExtractResult& result,
-                          const Provenance& provenance) {
-    const bool obj = arguments.format == "obj" ||
-                     (arguments.format.empty() && ends_with(arguments.output, ".obj"));
-    return obj ? skeleton_obj(result.graph) : skeleton_json(result, provenance, arguments.parts);
+void write_results(const Arguments& arguments, SkeletonFormat format, const Mesh& mesh,
+                   const ExtractResult& result, const Provenance& provenance) {
+    if (!arguments.correspondence.empty()) {
+        write_output_text(arguments.correspondence,
+                          write_correspondence(result.graph, mesh.positions));
+    }
+    write_output_text(
+        arguments.output.path,
+        format == SkeletonFormat::Json
+            ? skeleton_json(result, provenance, arguments.parts)
+            : write_skeleton(result.graph, format, {arguments.output.tubes, provenance.command}));
 }
 
 void draw_pictures(const Arguments& arguments, const ExtractResult& result, gl::Context& context) {
@@ -126,9 +128,13 @@ ExitCode extract(const Arguments& given, const Common& common) {
     Arguments arguments = given;
     arguments.extract.paper.steps.keep_paths =
         arguments.parts.paths || !arguments.picture_paths.empty();
-    if (arguments.output.empty())
-        throw UsageError("--output needs a name, or - for standard output");
-    check_outputs(arguments.model, {arguments.output, arguments.picture, arguments.picture_paths});
+    const SkeletonFormat format = format_of(arguments.output);
+    if ((arguments.parts.seeds || arguments.parts.paths) && format != SkeletonFormat::Json) {
+        throw UsageError(fmt::format("--with-seeds and --with-paths go with json, not with {}",
+                                     info_of(format).name));
+    }
+    check_outputs(arguments.model, {arguments.output.path, arguments.correspondence,
+                                    arguments.picture, arguments.picture_paths});
     const Mesh mesh = read_mesh(arguments.model);
     // A picture that cannot be drawn is known before the work starts, not after.
     std::unique_ptr<gl::Context> picture_context;
@@ -150,7 +156,7 @@ ExitCode extract(const Arguments& given, const Common& common) {
                            arguments.extract, *backend);
     }
     if (picture_context) draw_pictures(arguments, result, *picture_context);
-    write_output_text(arguments.output, skeleton_text(arguments, result, provenance));
+    write_results(arguments, format, mesh, result, provenance);
     log_info("{} nodes, {} edges; {} evaluations of {} seeds in {:.2f} s by {}",
              result.graph.nodes.size(), result.graph.edges.size(), result.statistics.evaluations,
              result.statistics.seeds, result.statistics.seconds(), backend->info().name);
@@ -174,7 +180,7 @@ void add_method_options(CLI::App& command, Arguments& arguments) {
             ->group(kNewton),
         command
             .add_option(
-                "--detail", newton.refine.detail,
+                "--detail", newton.limbs.detail,
                 "How far a limb must stick out to be kept: below 1 more of them, above 1 fewer")
             ->capture_default_str()
             ->check(CLI::Range(0.01, 100.0))
@@ -235,14 +241,10 @@ void add_extract_command(CLI::App& app, const Common& common, Run& run) {
     auto arguments = std::make_shared<Arguments>();
     command->add_option("model", arguments->model, "OBJ, OFF, PLY or STL; - reads standard input")
         ->required();
-    command
-        ->add_option("-o,--output", arguments->output,
-                     "Where the skeleton goes; - writes standard output")
-        ->capture_default_str();
-    command
-        ->add_option("--format", arguments->format,
-                     "json or obj; by default what the output's name says")
-        ->check(CLI::IsMember({"json", "obj"}));
+    add_output_options(*command, arguments->output);
+    command->add_option("--correspondence", arguments->correspondence,
+                        "Write a segment from each vertex's node to the vertex too, as CGAL does "
+                        "beside its polylines (.polylines.txt)");
     command
         ->add_option_function<std::string>(
             "--method",
@@ -281,6 +283,9 @@ void add_extract_command(CLI::App& app, const Common& common, Run& run) {
     command->footer(
         "Examples:\n  zskel extract horse.obj -o horse.json --picture horse.png\n"
         "  zskel extract horse.obj --method paper --backend ray --rays 197 --stats -o horse.json\n"
+        "  zskel extract horse.obj -o horse.polylines.txt --correspondence "
+        "horse.correspondence.polylines.txt\n"
+        "  zskel extract horse.obj --node-link -o horse.json\n"
         "  cat scan.ply | zskel extract - --detail 2 --format obj > scan.skeleton.obj");
     command->callback([&run, &common, arguments] {
         run = [&common, arguments] { return extract(*arguments, common); };

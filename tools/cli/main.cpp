@@ -23,6 +23,7 @@ constexpr const char* kFooter = R"(Exit codes:
 
 Examples:
   zskel extract models/horse.obj -o horse.json --picture horse.png
+  zskel convert horse.json -o horse.swc
   zskel check scan.ply
   zskel doctor)";
 
@@ -113,7 +114,7 @@ int run_program(int argc, char** argv) {
         ->check(CLI::Range(0, 4096));
     Run run;
     add_extract_command(app, common, run);
-
+    add_convert_command(app, common, run);
     add_check_command(app, common, run);
     add_depth_command(app, common, run);
     add_compare_command(app, common, run);

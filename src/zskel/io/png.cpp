@@ -35,7 +35,18 @@ struct Writer {
     Writer& operator=(const Writer&) = delete;
 };
 
-std::string encode(const Image& image, const std::string& title) {
+}  // namespace
+
+Image make_image(int width, int height, int channels, std::uint8_t value) {
+    Image image{width, height, channels, {}};
+    image.pixels.assign(static_cast<std::size_t>(width) * static_cast<std::size_t>(height) *
+                            static_cast<std::size_t>(channels),
+                        value);
+    return image;
+}
+
+std::string encode_png(const Image& image, const std::string& title) {
+    ZSKEL_ASSERT(image.channels == 3 || image.channels == 4, "RGB or RGBA");
     std::string bytes;
     const Writer writer;
     png_set_write_fn(writer.png, &bytes, on_write, on_flush);
@@ -60,19 +71,8 @@ std::string encode(const Image& image, const std::string& title) {
     return bytes;
 }
 
-}  // namespace
-
-Image make_image(int width, int height, int channels, std::uint8_t value) {
-    Image image{width, height, channels, {}};
-    image.pixels.assign(static_cast<std::size_t>(width) * static_cast<std::size_t>(height) *
-                            static_cast<std::size_t>(channels),
-                        value);
-    return image;
-}
-
 void write_png(const std::string& path, const Image& image, const std::string& title) {
-    ZSKEL_ASSERT(image.channels == 3 || image.channels == 4, "RGB or RGBA");
-    write_output_text(path, encode(image, title));
+    write_output_text(path, encode_png(image, title));
 }
 
 Image read_png(const std::string& path) {

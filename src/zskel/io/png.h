@@ -24,8 +24,10 @@ struct Image {
 /// A picture of one colour.
 Image make_image(int width, int height, int channels, std::uint8_t value);
 
-/// Writes a PNG with the text chunks Title and Software; nothing in it depends on the time. "-" is
-/// standard output.
+/// The bytes of a PNG with the text chunks Title and Software; nothing in it depends on the time.
+std::string encode_png(const Image& image, const std::string& title);
+
+/// Writes them to a file; "-" is standard output.
 /// @throws IoError naming the path.
 void write_png(const std::string& path, const Image& image, const std::string& title);
 

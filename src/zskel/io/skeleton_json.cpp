@@ -8,6 +8,8 @@
 
 #include <nlohmann/json.hpp>
 
+#include "zskel/io/format_io.h"
+
 namespace zskel {
 namespace {
 
@@ -103,7 +105,8 @@ Json statistics_json(const ExtractResult& result) {
             {"cycles", topology.cycles},
             {"expected_cycles", s.expected_cycles},
             {"ignored_handles", result.ignored_handles.size()},
-            {"pruned_branches", s.refine.pruned_branches},
+            {"limbs", s.limbs},
+            {"rejected_limbs", s.rejected_limbs},
             {"merged_junctions", s.refine.merged_junctions},
             {"extended_ends", s.refine.extended_ends},
             {"seeds", s.seeds},
@@ -133,7 +136,7 @@ Json options_json(const Provenance& provenance) {
                     {"max_steps", o.newton.steps.max_steps},
                     {"cluster_radii", o.newton.cluster_radii},
                     {"min_handle_model", o.newton.min_handle_model},
-                    {"detail", o.newton.refine.detail},
+                    {"detail", o.newton.limbs.detail},
                     {"sweeps", o.newton.refine.sweeps}});
     }
     return out;
@@ -181,6 +184,8 @@ std::string text(const Json& value) {
     return value.dump(-1, ' ', false, Json::error_handler_t::replace);
 }
 
+using Members = std::vector<std::pair<std::string, std::string>>;
+
 // An array with a line for each element.
 std::string rows(const Json& array) {
     std::string out;
@@ -189,22 +194,14 @@ std::string rows(const Json& array) {
     return fmt::format("[{}]", out);
 }
 
-}  // namespace
+Members graph_members(const SkeletonGraph& graph) {
+    return {
+        {"format", "\"zskel-skeleton\""},         {"version", "1"},
+        {"nodes", rows(nodes_json(graph))},       {"edges", rows(edges_json(graph))},
+        {"branches", rows(branches_json(graph))}, {"vertex_node", text(vertex_node_json(graph))}};
+}
 
-std::string skeleton_json(const ExtractResult& result, const Provenance& provenance,
-                          const JsonParts& parts) {
-    std::vector<std::pair<std::string, std::string>> members{
-        {"format", "\"zskel-skeleton\""},
-        {"version", "1"},
-        {"nodes", rows(nodes_json(result.graph))},
-        {"edges", rows(edges_json(result.graph))},
-        {"branches", rows(branches_json(result.graph))},
-        {"vertex_node", text(vertex_node_json(result.graph))},
-        {"ignored_handles", rows(handles_json(result))},
-        {"statistics", text(statistics_json(result))},
-        {"warnings", rows(Json(result.warnings))},
-        {"provenance", text(provenance_json(provenance, result.surface.world_from_model))}};
-    if (parts.seeds || parts.paths) members.emplace_back("seeds", rows(seeds_json(result, parts)));
+std::string object(const Members& members) {
     std::string out;
     for (const auto& [name, value] : members) {
         out += fmt::format("{}\"{}\": {}", out.empty() ? "{\n" : ",\n", name, value);
@@ -212,15 +209,32 @@ std::string skeleton_json(const ExtractResult& result, const Provenance& provena
     return out + "\n}\n";
 }
 
-std::string skeleton_obj(const SkeletonGraph& graph) {
-    std::string text = "# zskel curve skeleton: v = node, l = edge\n";
-    for (const SkeletonGraph::Node& node : graph.nodes) {
-        text += fmt::format("v {} {} {}\n", node.position.x, node.position.y, node.position.z);
-    }
-    for (const SkeletonGraph::Edge& edge : graph.edges) {
-        text += fmt::format("l {} {}\n", edge.source + 1, edge.target + 1);
-    }
-    return text;
+}  // namespace
+
+std::string skeleton_json(const ExtractResult& result, const Provenance& provenance,
+                          const JsonParts& parts) {
+    Members members = graph_members(result.graph);
+    members.emplace_back("ignored_handles", rows(handles_json(result)));
+    members.emplace_back("statistics", text(statistics_json(result)));
+    members.emplace_back("warnings", rows(Json(result.warnings)));
+    members.emplace_back("provenance",
+                         text(provenance_json(provenance, result.surface.world_from_model)));
+    if (parts.seeds || parts.paths) members.emplace_back("seeds", rows(seeds_json(result, parts)));
+    return object(members);
+}
+
+std::string write_graph_json(const SkeletonGraph& graph, const std::string& command) {
+    const GraphTopology topology = graph_topology(graph);
+    const Json statistics{{"nodes", graph.nodes.size()},
+                          {"edges", graph.edges.size()},
+                          {"components", topology.components},
+                          {"cycles", topology.cycles}};
+    const Json provenance{
+        {"program", "zskel"}, {"program_version", ZSKEL_VERSION}, {"command", command}};
+    Members members = graph_members(graph);
+    members.emplace_back("statistics", text(statistics));
+    members.emplace_back("provenance", text(provenance));
+    return object(members);
 }
 
 }  // namespace zskel

@@ -22,11 +22,8 @@ struct JsonParts {
 };
 
 /// The skeleton as JSON (`"format": "zskel-skeleton"`, `"version": 1`), positions in the model's
-/// coordinates.
+/// coordinates. `write_skeleton` gives the same of a graph alone, without how it was made.
 std::string skeleton_json(const ExtractResult& result, const Provenance& provenance,
                           const JsonParts& parts);
-
-/// The skeleton as OBJ lines: a `v` for each node, an `l` for each edge.
-std::string skeleton_obj(const SkeletonGraph& graph);
 
 }  // namespace zskel

@@ -8,16 +8,13 @@
 #include <algorithm>
 #include <array>
 #include <cctype>
-#include <cerrno>
-#include <cstdio>
-#include <cstring>
 #include <filesystem>
-#include <memory>
 #include <new>
 #include <optional>
 #include <stdexcept>
 
 #include "zskel/core/error.h"
+#include "zskel/core/input_file.h"
 #include "zskel/mesh/formats.h"
 #include "zskel/mesh/text_cursor.h"
 
@@ -30,42 +27,6 @@ constexpr std::array<std::string_view, 5> kOffExtensions = {".off", ".coff", ".n
 /// First words by which an OBJ file without its extension is told.
 constexpr std::array<std::string_view, 8> kObjWords = {"v", "vt", "vn",     "o",
                                                        "g", "s",  "mtllib", "usemtl"};
-constexpr std::size_t kFirstRead = std::size_t{1} << 16;
-
-struct CloseFile {
-    void operator()(std::FILE* file) const {
-        if (file != stdin) std::fclose(file);
-    }
-};
-
-[[noreturn]] void fail_reading(const std::string& path, int error) {
-    throw InputError(fmt::format("{}: cannot be read: {}; expected an {} file", path,
-                                 std::strerror(error), kForms));
-}
-
-/// How much to ask for at first: the whole of a regular file and one byte, to see its end.
-std::size_t first_read_size(const std::string& path) {
-    std::error_code unknown;
-    const std::uintmax_t size = std::filesystem::file_size(path, unknown);
-    return unknown ? kFirstRead : static_cast<std::size_t>(size) + 1;
-}
-
-std::vector<std::byte> read_all(const std::string& path) {
-    const bool standard_input = path == "-";
-    const std::unique_ptr<std::FILE, CloseFile> file(
-        standard_input ? stdin : std::fopen(path.c_str(), "rb"));
-    if (!file) fail_reading(path, errno);
-    std::vector<std::byte> bytes(standard_input ? kFirstRead : first_read_size(path));
-    std::size_t filled = 0;
-    while (true) {
-        filled += std::fread(bytes.data() + filled, 1, bytes.size() - filled, file.get());
-        if (filled < bytes.size()) break;
-        bytes.resize(bytes.size() * 2);
-    }
-    if (std::ferror(file.get()) != 0) fail_reading(path, errno);
-    bytes.resize(filled);
-    return bytes;
-}
 
 std::string lower_case(std::string text) {
     std::transform(text.begin(), text.end(), text.begin(),
@@ -102,13 +63,10 @@ MeshFormat format_of_content(std::string_view bytes, const std::string& name) {
 }  // namespace
 
 Mesh read_mesh(const std::string& path) try {
-    const std::vector<std::byte> bytes = read_all(path);
+    const std::string bytes = read_input_file(path, fmt::format("an {} file", kForms));
     std::optional<MeshFormat> format = format_of_extension(path);
-    if (!format) {
-        const std::string_view text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
-        format = format_of_content(text, path);
-    }
-    return parse_mesh(bytes, *format, path);
+    if (!format) format = format_of_content(bytes, path);
+    return parse_mesh(std::as_bytes(std::span(bytes)), *format, path);
 } catch (const std::bad_alloc&) {
     throw InputError(fmt::format("{}: the model takes more memory than there is", path));
 } catch (const std::length_error&) {

@@ -7,6 +7,7 @@
 
 #include "zskel/mesh/small_handles.h"
 #include "zskel/skeleton/cluster.h"
+#include "zskel/skeleton/limbs.h"
 #include "zskel/skeleton/newton.h"
 #include "zskel/skeleton/refine.h"
 #include "zskel/skeleton/seeds.h"
@@ -27,6 +28,8 @@ struct SolidSkeleton {
     std::size_t forest_edges = 0;      ///< edges left when every cycle is opened at its longest
     std::size_t expected_cycles = 0;   ///< handles but those ignored; 0 where they are not known
     std::vector<SmallHandle> ignored_handles;
+    std::size_t limbs = 0;  ///< that grew from the cycles or the thickest node
+    std::size_t rejected_limbs = 0;
     RefineReport refine;
     std::vector<std::string> warnings;
 };
@@ -55,6 +58,7 @@ struct NewtonMethodOptions {
     double cluster_radii = 0.5;        ///< range within which end points become one, in local radii
     double min_cluster_world = 0.006;  ///< but between these
     double max_cluster_world = 0.05;
+    LimbOptions limbs;
     int max_retries = 4;            ///< each with half the range where clusters go round a handle
     double min_handle_model = 0.0;  ///< handles of a smaller radius get no cycle; see SmallHandle
     RefineOptions refine;

@@ -43,8 +43,8 @@ class Connector {
         });
     }
 
-    Network run() {
-        Network out;
+    ClusterNetwork run() {
+        ClusterNetwork out;
         DisjointSets sets(context_.clusters.centers.size());
         tree_.assign(context_.clusters.centers.size(), {});
         std::vector<std::uint32_t> others;
@@ -54,12 +54,14 @@ class Connector {
                 others.push_back(i);
                 continue;
             }
-            out.connections.push_back(c);
+            out.spanning.push_back(i);
             tree_[c.a].push_back({c.b, i, 1});
             tree_[c.b].push_back({c.a, i, -1});
         }
-        out.has_all_cycles = add_cycles(others, out.connections);
-        bridge_shells(context_, sets, out.connections);
+        out.has_all_cycles = add_cycles(others, out.spanning);
+        for (Candidate& candidate : candidates_)
+            out.connections.push_back(std::move(candidate.connection));
+        bridge_shells(context_, sets, out);
         return out;
     }
 
@@ -220,7 +222,8 @@ class Connector {
         return cycles;
     }
 
-    bool add_cycles(const std::vector<std::uint32_t>& others, std::vector<Connection>& chosen) {
+    bool add_cycles(const std::vector<std::uint32_t>& others,
+                    std::vector<std::uint32_t>& spanning) {
         if (handles_.cycles() == 0) return true;
         walk_tree();
         CycleBasis basis(handles_);
@@ -230,7 +233,7 @@ class Connector {
             Class cls = class_of(candidate);
             add_to(cls, places_[candidate.connection.a].cls, 1);
             add_to(cls, places_[candidate.connection.b].cls, -1);
-            if (basis.extend(cls)) chosen.push_back(candidate.connection);
+            if (basis.extend(cls)) spanning.push_back(cycle.candidate);
         }
         return basis.is_complete();
     }
@@ -245,7 +248,7 @@ class Connector {
 
 }  // namespace
 
-Network connect_network(const ClusterContext& context, const HandleClasses& handles) {
+ClusterNetwork connect_network(const ClusterContext& context, const HandleClasses& handles) {
     return Connector(context, handles).run();
 }
 

@@ -22,9 +22,10 @@ struct Connection {
 };
 
 /// How clusters are joined.
-struct Network {
-    std::vector<Connection> connections;
-    bool has_all_cycles = false;  ///< as many as handles; if not, some could not be laid inside
+struct ClusterNetwork {
+    std::vector<Connection> connections;  ///< all that the mesh gives, and bridges between shells
+    std::vector<std::uint32_t> spanning;  ///< numbers of those in the tree and of its cycles
+    bool has_all_cycles = true;  ///< as many as handles; if not, some could not be laid inside
 };
 
 /// A tree of the shortest connections over the clusters of each part, and as many more as the solid
@@ -33,12 +34,12 @@ struct Network {
 /// @param handles  empty on open or broken surfaces: then it is the forest alone.
 /// Work: a path to lay for each class of connection between two clusters, and for each cycle looked
 /// at the non-zero numbers of the classes before it.
-Network connect_network(const ClusterContext& context, const HandleClasses& handles);
+ClusterNetwork connect_network(const ClusterContext& context, const HandleClasses& handles);
 
 /// The path, straightened: points are left out while the segment past them is free and goes the
 /// same way round all handles.
 std::vector<Vec3> pull_tight(const std::vector<Vec3>& path, const SurfaceQuery& query,
-                             const HandleClasses& handles);
+                             const HandleClasses& handles = {});
 
 /// Whether every segment of a path is free.
 bool is_free(std::span<const Vec3> path, const SurfaceQuery& query);

@@ -38,11 +38,13 @@ HandleClasses handles_of(const Surface& surface, const std::vector<Vec3>& inner,
 
 // Halves the ranges in clusters that go round a handle all by themselves; false when none can be
 // split.
-bool split_rings(const Network& network, const Clusters& clusters, std::vector<float>& ranges) {
+bool split_rings(const ClusterNetwork& network, const Clusters& clusters,
+                 std::vector<float>& ranges) {
     std::vector<std::uint32_t> sizes(clusters.centers.size(), 0);
     for (const std::uint32_t c : clusters.of_point) ++sizes[c];
     std::vector<bool> is_split(sizes.size(), false);
-    for (const Connection& c : network.connections) {
+    for (const std::uint32_t i : network.spanning) {
+        const Connection& c = network.connections[i];
         if (c.a == c.b && sizes[c.a] > 1) is_split[c.a] = true;
     }
     for (std::size_t s = 0; s < ranges.size(); ++s) {
@@ -109,27 +111,31 @@ SolidSkeleton extract_by_newton(const Surface& surface, bool is_closed, Visibili
     const std::vector<Shortcut> shortcuts = find_shortcuts(ends, links, radii, ranges);
     std::vector<glm::uvec2> joints = links;
     for (const Shortcut& s : shortcuts) joints.emplace_back(s.walk.front(), s.walk.back());
+    std::vector<Vec3> seed_points;
+    for (const std::uint32_t v : spread.vertices) seed_points.push_back(surface.positions[v]);
     CurveGraph graph;
     for (int attempt = 0;; ++attempt) {
         Clusters clusters = cluster_minima(ends, joints, ranges);
         center_on_members(clusters, ends);
         const ClusterContext context{surface, query, spread,    out.settled,
                                      inner,   links, shortcuts, clusters};
-        const Network network = connect_network(context, handles);
+        const ClusterNetwork network = connect_network(context, handles);
         if (attempt < options.max_retries && split_rings(network, clusters, ranges)) continue;
         if (!network.has_all_cycles)
             out.warnings.emplace_back("a cycle is missing: no way for it was found inside");
-        const auto unfree = std::count_if(network.connections.begin(), network.connections.end(),
-                                          [](const Connection& c) { return !c.is_inside; });
+        const Limbs limbs = grow_limbs(context, network, options.limbs);
+        const auto unfree =
+            std::count_if(limbs.connections.begin(), limbs.connections.end(),
+                          [&](std::uint32_t i) { return !network.connections[i].is_inside; });
         if (unfree > 0)
             out.warnings.push_back(fmt::format("{} connections could not be laid inside", unfree));
-        graph = build_graph(context, network.connections);
+        out.limbs = limbs.limbs;
+        out.rejected_limbs = limbs.rejected;
+        graph = build_graph(context, network.connections, limbs);
         break;
     }
     progress.begin("refine");
-    std::vector<Vec3> seed_points;
-    for (const std::uint32_t v : spread.vertices) seed_points.push_back(surface.positions[v]);
-    out.refine = refine_graph(graph, seed_points, query, source, options.refine);
+    out.refine = refine_graph(graph, seed_points, query, options.refine);
     flatten(graph, spread, out);
     out.forest_edges = out.nodes.size() - 1;
     return out;

@@ -4,8 +4,9 @@
 #include <cmath>
 #include <utility>
 
-#include "zskel/core/eigen3.h"
+#include "zskel/core/parallel.h"
 #include "zskel/skeleton/branches.h"
+#include "zskel/skeleton/section.h"
 
 namespace zskel {
 namespace {
@@ -56,21 +57,19 @@ void give_seeds(CurveGraph& graph, std::uint32_t from, std::uint32_t to) {
 class Refiner {
   public:
     Refiner(CurveGraph& graph, std::span<const Vec3> seed_points, const SurfaceQuery& query,
-            VisibilitySource& source, const RefineOptions& options)
-        : graph_(graph),
-          seed_points_(seed_points),
-          query_(query),
-          source_(source),
-          options_(options) {}
+            const RefineOptions& options)
+        : graph_(graph), seed_points_(seed_points), query_(query), options_(options) {}
 
     RefineReport run() {
         merge_junctions();
-        prune();
-        merge_junctions();
         extend_ends();
         resample();
-        for (int i = 0; i < options_.smoothing_sweeps; ++i) sweep(0.0);
-        for (int i = 0; i < options_.sweeps; ++i) sweep(options_.centring);
+        for (int i = 0; i < options_.smoothing_sweeps; ++i) smooth(options_.smoothing);
+        for (int i = 0; i < options_.sweeps; ++i) {
+            centre();
+            smooth(options_.smoothing);
+            smooth(-options_.unshrink);
+        }
         resample();
         for (Node& node : graph_.nodes) {
             if (!node.is_removed) node.radius = query_.nearest(node.position).distance;
@@ -80,97 +79,6 @@ class Refiner {
 
   private:
     bool free_between(const Vec3& a, const Vec3& b) const { return !query_.first_hit(a, b); }
-
-    // The least of what a limb has to have, each over its bound; below 1 the branch is a spur: its
-    // surface sticks out of the inscribed balls of the rest of the skeleton, by its own thickness
-    // and by some share of the junction's, and it has some length.
-    double limb_measure(const std::vector<std::uint32_t>& path) const {
-        std::vector<bool> in_branch(graph_.nodes.size(), false);
-        for (std::size_t i = 1; i < path.size(); ++i) in_branch[path[i]] = true;
-        const double junction_radius =
-            static_cast<double>(std::max(graph_.nodes[path.front()].radius, 1e-9f));
-        double sticks_out = 0.0;
-        for (std::size_t i = 1; i < path.size(); ++i) {
-            const Node& node = graph_.nodes[path[i]];
-            for (const std::uint32_t s : node.seeds) {
-                const double beyond = distance_beyond(seed_points_[s], in_branch);
-                const double own = static_cast<double>(std::max(node.radius, 1e-9f));
-                sticks_out =
-                    std::max(sticks_out,
-                             std::min(beyond / (options_.least_own_radii * own),
-                                      beyond / (options_.least_junction_radii * junction_radius)));
-            }
-        }
-        const double length = static_cast<double>(length_of(graph_, path)) / junction_radius;
-        return std::min(sticks_out, length / options_.least_length_radii) / options_.detail;
-    }
-
-    // From a point to the nearest inscribed ball of the rest.
-    double distance_beyond(const Vec3& point, const std::vector<bool>& left_out) const {
-        double least = 1e9;
-        for (std::uint32_t n = 0; n < graph_.nodes.size(); ++n) {
-            const Node& node = graph_.nodes[n];
-            if (node.is_removed || left_out[n]) continue;
-            least = std::min(
-                least, static_cast<double>(glm::distance(point, node.position) - node.radius));
-        }
-        return least;
-    }
-
-    // Spurs go, the least first, since what is left may join to a longer limb.
-    void prune() {
-        while (true) {
-            double least = 1.0;
-            std::vector<std::uint32_t> worst;
-            for (const std::vector<std::uint32_t>& branch : branches_of(graph_)) {
-                std::vector<std::uint32_t> path = branch;
-                const bool front_ends = graph_.nodes[path.front()].links.size() == 1;
-                const bool back_ends = graph_.nodes[path.back()].links.size() == 1;
-                if (front_ends && back_ends) {
-                    shrink_blob(path);
-                    continue;
-                }
-                if (front_ends == back_ends) continue;
-                if (front_ends) std::reverse(path.begin(), path.end());
-                const double measure = limb_measure(path);
-                if (measure < least) {
-                    least = measure;
-                    worst = path;
-                }
-            }
-            if (worst.empty()) return;
-            remove_branch(worst);
-        }
-    }
-
-    // A lone branch that is short against its own radius is no limb: it becomes the node of
-    // greatest radius.
-    void shrink_blob(const std::vector<std::uint32_t>& path) {
-        const std::uint32_t center = *std::max_element(
-            path.begin(), path.end(),
-            [&](auto l, auto r) { return graph_.nodes[l].radius < graph_.nodes[r].radius; });
-        const double radius = options_.detail * static_cast<double>(graph_.nodes[center].radius);
-        if (static_cast<double>(length_of(graph_, path)) >= options_.least_length_radii * radius)
-            return;
-        ++report_.pruned_branches;
-        report_.pruned_length_world += static_cast<double>(length_of(graph_, path));
-        for (std::size_t i = 1; i < path.size(); ++i) unlink(graph_, path[i - 1], path[i]);
-        for (const std::uint32_t n : path) {
-            if (n == center) continue;
-            give_seeds(graph_, n, center);
-            graph_.nodes[n].is_removed = true;
-        }
-    }
-
-    void remove_branch(const std::vector<std::uint32_t>& path) {
-        ++report_.pruned_branches;
-        report_.pruned_length_world += static_cast<double>(length_of(graph_, path));
-        for (std::size_t i = path.size() - 1; i > 0; --i) {
-            unlink(graph_, path[i - 1], path[i]);
-            give_seeds(graph_, path[i], path.front());
-            graph_.nodes[path[i]].is_removed = true;
-        }
-    }
 
     // Two junctions become one, the one with the greater radius, when the other's neighbours can be
     // joined to it.
@@ -366,118 +274,118 @@ class Refiner {
         }
     }
 
-    // One pass over all nodes within branches: towards where the force across the branch vanishes,
-    // and towards the middle of the neighbours. A move that would leave the solid is not made.
-    void sweep(double centring) {
-        std::vector<std::uint32_t> moving;
-        std::vector<Vec3> eyes;
+    // One pass over all nodes but the ends: each towards the middle of its neighbours, or away from
+    // it where `share` is negative. A move that would leave the solid is not made.
+    void smooth(double share) {
+        std::vector<std::pair<std::uint32_t, Vec3>> targets;
         for (std::uint32_t n = 0; n < graph_.nodes.size(); ++n) {
-            if (graph_.nodes[n].is_removed || graph_.nodes[n].links.size() < 2) continue;
-            moving.push_back(n);
-            eyes.push_back(graph_.nodes[n].position);
+            const Node& node = graph_.nodes[n];
+            if (node.is_removed || node.links.size() < 2) continue;
+            DVec3 middle(0.0);
+            for (const std::uint32_t other : node.links)
+                middle += DVec3(graph_.nodes[other].position);
+            middle /= static_cast<double>(node.links.size());
+            // A junction is held by its branches; the smoothing alone would drag it to the longest.
+            const double held = node.links.size() > 2 ? 0.3 : 1.0;
+            const DVec3 here(node.position);
+            targets.emplace_back(n, Vec3(here + (middle - here) * (share * held)));
         }
-        std::vector<EyeRecord> records(eyes.size());
-        if (centring > 0.0 && !eyes.empty()) {
-            source_.look(eyes, records);
-            report_.evaluations += eyes.size();
+        move(targets);
+    }
+
+    // One pass over all nodes within branches, each to the centre of its section.
+    void centre() {
+        std::vector<std::uint32_t> moving;
+        for (std::uint32_t n = 0; n < graph_.nodes.size(); ++n) {
+            if (!graph_.nodes[n].is_removed && graph_.nodes[n].links.size() == 2)
+                moving.push_back(n);
         }
-        std::vector<Vec3> targets;
-        for (std::size_t i = 0; i < moving.size(); ++i)
-            targets.push_back(target_of(graph_.nodes[moving[i]], records[i], centring));
-        for (std::size_t i = 0; i < moving.size(); ++i) {
-            Node& node = graph_.nodes[moving[i]];
+        std::vector<std::pair<std::uint32_t, Vec3>> targets(moving.size());
+        parallel_for(moving.size(), 4, [&](std::size_t begin, std::size_t end) {
+            for (std::size_t i = begin; i < end; ++i) targets[i] = {moving[i], centred(moving[i])};
+        });
+        move(targets);
+    }
+
+    Vec3 centred(std::uint32_t n) const {
+        const Node& node = graph_.nodes[n];
+        const Vec3 chord = ahead_of(n, node.links[1]) - ahead_of(n, node.links[0]);
+        if (!(glm::length(chord) > 0.0f)) return node.position;
+        const Vec3 step = step_to_section_centre(query_, node.position, glm::normalize(chord));
+        const auto share = static_cast<float>(options_.centring);
+        const float longest = static_cast<float>(options_.longest_move_radii) *
+                              query_.nearest(node.position).distance;
+        const float length = glm::length(step) * share;
+        return node.position + step * (length > longest ? share * longest / length : share);
+    }
+
+    // A point of the branch two nodes on from `n` over its neighbour `next`.
+    const Vec3& ahead_of(std::uint32_t n, std::uint32_t next) const {
+        const auto& links = graph_.nodes[next].links;
+        if (links.size() != 2) return graph_.nodes[next].position;
+        return graph_.nodes[links[0] == n ? links[1] : links[0]].position;
+    }
+
+    void move(const std::vector<std::pair<std::uint32_t, Vec3>>& targets) {
+        for (const auto& [n, target] : targets) {
+            Node& node = graph_.nodes[n];
+            const Vec3& to = target;
             const bool stays =
-                std::all_of(node.links.begin(), node.links.end(), [&](std::uint32_t n) {
-                    return free_between(graph_.nodes[n].position, targets[i]);
+                std::all_of(node.links.begin(), node.links.end(), [&](std::uint32_t other) {
+                    return free_between(graph_.nodes[other].position, to);
                 });
-            if (stays) node.position = targets[i];
+            if (stays) node.position = to;
         }
-    }
-
-    Vec3 target_of(const Node& node, const EyeRecord& met, double centring) const {
-        DVec3 middle(0.0);
-        for (const std::uint32_t n : node.links) middle += DVec3(graph_.nodes[n].position);
-        middle /= static_cast<double>(node.links.size());
-        const DVec3 here(node.position);
-        DVec3 move = (middle - here) * options_.smoothing;
-        if (node.links.size() == 2 && centring > 0.0) {
-            const DVec3 chord(graph_.nodes[node.links[1]].position -
-                              graph_.nodes[node.links[0]].position);
-            if (glm::length(chord) > 0.0)
-                move += across_step(met, glm::normalize(chord)) * centring;
-        } else if (node.links.size() > 2) {
-            move *= 0.3;  // a junction is held by its branches; the smoothing alone would drag it
-                          // to the longest
-        }
-        const double longest = options_.longest_move_spacing * spacing_at(node.radius);
-        const double length = glm::length(move);
-        if (length > longest) move *= longest / length;
-        return node.position + Vec3(move);
-    }
-
-    // The Newton step on the force in the plane across the branch.
-    DVec3 across_step(const EyeRecord& met, const DVec3& tangent) const {
-        const DVec3 helper = std::abs(tangent.x) < 0.8 ? DVec3(1, 0, 0) : DVec3(0, 1, 0);
-        const DVec3 u = glm::normalize(glm::cross(tangent, helper));
-        const DVec3 v = glm::cross(tangent, u);
-        const auto& j = met.jacobian;
-        const auto times = [&](const DVec3& x) {
-            return DVec3(j[0] * x.x + j[3] * x.y + j[4] * x.z, j[3] * x.x + j[1] * x.y + j[5] * x.z,
-                         j[4] * x.x + j[5] * x.y + j[2] * x.z);
-        };
-        const DVec3 ju = times(u);
-        const DVec3 jv = times(v);
-        const double a = glm::dot(u, ju);
-        const double b = glm::dot(u, jv);
-        const double c = glm::dot(v, jv);
-        const double determinant = a * c - b * b;
-        const DVec3 force(met.force);
-        const double fu = glm::dot(force, u);
-        const double fv = glm::dot(force, v);
-        if (!(determinant > 0.01 * (a + c) * (a + c)) || a + c <= 0.0) {
-            const double scale = std::max(a + c, 1e-9);
-            return (u * fu + v * fv) / scale;
-        }
-        return u * ((c * fu - b * fv) / determinant) + v * ((a * fv - b * fu) / determinant);
     }
 
     CurveGraph& graph_;
     std::span<const Vec3> seed_points_;
     const SurfaceQuery& query_;
-    VisibilitySource& source_;
     const RefineOptions& options_;
     RefineReport report_;
 };
 
 }  // namespace
 
-CurveGraph build_graph(const ClusterContext& context, const std::vector<Connection>& connections) {
+CurveGraph build_graph(const ClusterContext& context, std::span<const Connection> connections,
+                       const Limbs& limbs) {
     CurveGraph graph;
-    graph.nodes.resize(context.clusters.centers.size());
-    for (std::size_t n = 0; n < graph.nodes.size(); ++n)
-        graph.nodes[n].position = context.clusters.centers[n];
-    for (std::uint32_t s = 0; s < context.clusters.of_point.size(); ++s) {
-        graph.nodes[context.clusters.of_point[s]].seeds.push_back(s);
+    std::vector<std::uint32_t> number(limbs.home.size(), kNone);
+    for (std::uint32_t c = 0; c < limbs.home.size(); ++c) {
+        if (limbs.home[c] != c) continue;
+        number[c] = static_cast<std::uint32_t>(graph.nodes.size());
+        graph.nodes.emplace_back().position = context.clusters.centers[c];
     }
-    for (const Connection& c : connections) {
-        std::uint32_t last = c.a;
-        for (std::size_t i = 1; i + 1 < c.path.size(); ++i) {
-            Node node;
-            node.position = c.path[i];
-            graph.nodes.push_back(std::move(node));
-            link(graph, last, static_cast<std::uint32_t>(graph.nodes.size() - 1));
-            last = static_cast<std::uint32_t>(graph.nodes.size() - 1);
+    for (std::uint32_t s = 0; s < context.clusters.of_point.size(); ++s) {
+        graph.nodes[number[limbs.home[context.clusters.of_point[s]]]].seeds.push_back(s);
+    }
+    for (const std::uint32_t i : limbs.connections) {
+        const Connection& c = connections[i];
+        std::uint32_t last = number[c.a];
+        for (std::size_t k = 1; k + 1 < c.path.size(); ++k) {
+            const auto next = static_cast<std::uint32_t>(graph.nodes.size());
+            graph.nodes.emplace_back().position = c.path[k];
+            link(graph, last, next);
+            last = next;
         }
-        link(graph, last, c.b);
+        link(graph, last, number[c.b]);
+    }
+    for (const Limbs::Tip& tip : limbs.tips) {
+        std::uint32_t last = number[tip.cluster];
+        for (std::size_t k = 1; k < tip.path.size(); ++k) {
+            const auto next = static_cast<std::uint32_t>(graph.nodes.size());
+            graph.nodes.emplace_back().position = tip.path[k];
+            link(graph, last, next);
+            last = next;
+        }
     }
     for (Node& node : graph.nodes) node.radius = context.query.nearest(node.position).distance;
     return graph;
 }
 
 RefineReport refine_graph(CurveGraph& graph, std::span<const Vec3> seed_points,
-                          const SurfaceQuery& query, VisibilitySource& source,
-                          const RefineOptions& options) {
-    return Refiner(graph, seed_points, query, source, options).run();
+                          const SurfaceQuery& query, const RefineOptions& options) {
+    return Refiner(graph, seed_points, query, options).run();
 }
 
 }  // namespace zskel

@@ -3,8 +3,9 @@
 #include <cstdint>
 #include <vector>
 
+#include "zskel/skeleton/limbs.h"
 #include "zskel/skeleton/network.h"
-#include "zskel/visibility/visibility_source.h"
+#include "zskel/visibility/surface_query.h"
 
 namespace zskel {
 
@@ -21,38 +22,31 @@ struct CurveGraph {
 };
 
 struct RefineOptions {
-    double detail = 1.0;  ///< scales what counts as a limb: below 1 more spurs stay, above 1 fewer
-    double least_own_radii = 1.5;  ///< a branch goes when its surface sticks out of the rest's
-                                   ///< inscribed balls by less than this many of its own radii,
-    double least_junction_radii = 0.35;  ///< or of its junction's,
-    double least_length_radii = 0.8;     ///< or is shorter than this many of its junction's
-    double merge_radii = 0.5;            ///< junctions nearer than this become one
-    double tip_gap_radii = 0.5;          ///< ends are extended to this distance from the tip
-    double min_spacing_world = 0.004;    ///< of nodes; between these bounds it is the radius
+    double merge_radii = 0.5;          ///< junctions nearer than this become one
+    double tip_gap_radii = 0.3;        ///< ends are extended to this distance from the tip
+    double min_spacing_world = 0.004;  ///< of nodes; between these bounds it is the radius
     double max_spacing_world = 0.02;
     int smoothing_sweeps = 12;  ///< before, of smoothing alone
-    int sweeps = 6;             ///< of centring and smoothing
-    double centring = 0.5;      ///< share of the Newton step across the branch that a sweep takes
-    double smoothing = 0.5;     ///< share of the way to the middle of the neighbours
-    double longest_move_spacing = 0.3;  ///< in a sweep
+    int sweeps = 24;            ///< of centring and smoothing
+    double centring = 0.2;      ///< share of the step to the section's centre that a sweep takes
+    double longest_move_radii = 0.3;  ///< but no longer than this, in inscribed radii
+    double smoothing = 0.5;           ///< share of the way to the middle of the neighbours,
+    double unshrink = 0.3;            ///< and then away from it, so that bends are not cut
 };
 
 struct RefineReport {
-    std::size_t pruned_branches = 0;
-    double pruned_length_world = 0.0;
     std::size_t merged_junctions = 0;
     std::size_t extended_ends = 0;
-    std::size_t evaluations = 0;
 };
 
-/// Nodes at the clusters' centres and along the connections' paths.
-CurveGraph build_graph(const ClusterContext& context, const std::vector<Connection>& connections);
+/// Nodes at the kept clusters' centres and along their connections' paths.
+CurveGraph build_graph(const ClusterContext& context, std::span<const Connection> connections,
+                       const Limbs& limbs);
 
-/// Prunes spurs, merges junctions, extends ends to the tips, and centres and smooths the branches.
+/// Merges junctions, extends ends to the tips, and centres and smooths the branches.
 /// No segment that was free is left unfree, and cycles stay.
 /// @param seed_points  where every seed's vertex is on the surface.
 RefineReport refine_graph(CurveGraph& graph, std::span<const Vec3> seed_points,
-                          const SurfaceQuery& query, VisibilitySource& source,
-                          const RefineOptions& options);
+                          const SurfaceQuery& query, const RefineOptions& options);
 
 }  // namespace zskel

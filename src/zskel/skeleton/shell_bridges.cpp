@@ -29,8 +29,7 @@ std::vector<Pair> find_pairs(const std::vector<Vec3>& centers, DisjointSets& set
 
 }  // namespace
 
-void bridge_shells(const ClusterContext& context, DisjointSets& sets,
-                   std::vector<Connection>& connections) {
+void bridge_shells(const ClusterContext& context, DisjointSets& sets, ClusterNetwork& network) {
     const std::vector<Vec3>& centers = context.clusters.centers;
     const std::vector<Pair> pairs = find_pairs(centers, sets);
     for (const bool must_be_free : {true, false}) {
@@ -39,7 +38,8 @@ void bridge_shells(const ClusterContext& context, DisjointSets& sets,
             const std::vector<Vec3> path{centers[pair.a], centers[pair.b]};
             if (must_be_free && !is_free(path, context.query)) continue;
             sets.unite(pair.a, pair.b);
-            connections.push_back({pair.a, pair.b, 0, 0, path, pair.length, must_be_free});
+            network.spanning.push_back(static_cast<std::uint32_t>(network.connections.size()));
+            network.connections.push_back({pair.a, pair.b, 0, 0, path, pair.length, must_be_free});
         }
     }
 }

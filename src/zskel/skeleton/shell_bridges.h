@@ -11,7 +11,6 @@ namespace zskel {
 /// clusters by the shortest straight connections that are free, and where none is, by the shortest,
 /// marked as not inside. No cycle comes of it, and none is missed: what goes round inside a solid
 /// goes round on its shells.
-void bridge_shells(const ClusterContext& context, DisjointSets& sets,
-                   std::vector<Connection>& connections);
+void bridge_shells(const ClusterContext& context, DisjointSets& sets, ClusterNetwork& network);
 
 }  // namespace zskel

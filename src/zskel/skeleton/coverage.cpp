@@ -1,0 +1,46 @@
+#include "zskel/skeleton/coverage.h"
+
+#include <algorithm>
+#include <utility>
+
+namespace zskel {
+
+Coverage::Coverage(const SurfaceQuery& query, std::vector<Vec3> places, std::vector<Vec3> inside)
+    : query_(query),
+      places_(std::move(places)),
+      inside_(std::move(inside)),
+      beyond_(places_.size(), kInfinity) {}
+
+void Coverage::add(std::span<const Vec3> path, float first_radius, float last_radius) {
+    const float length = length_of(path);
+    float passed = 0.0f;
+    const auto radius_at = [&](float along) {
+        return glm::mix(first_radius, last_radius, length > 0.0f ? along / length : 0.0f);
+    };
+    for (std::size_t i = 1; i < path.size(); ++i) {
+        const float piece = glm::distance(path[i - 1], path[i]);
+        add_segment(path[i - 1], path[i], radius_at(passed), radius_at(passed + piece));
+        passed += piece;
+    }
+}
+
+void Coverage::add_segment(const Vec3& a, const Vec3& b, float radius_a, float radius_b) {
+    const Vec3 along = b - a;
+    const float square = glm::dot(along, along);
+    for (std::size_t i = 0; i < places_.size(); ++i) {
+        const float part = square > 0.0f ? glm::dot(places_[i] - a, along) / square : 0.0f;
+        const float share = glm::clamp(part, 0.0f, 1.0f);
+        const Vec3 center = a + along * share;
+        const float beyond =
+            glm::distance(places_[i], center) - glm::mix(radius_a, radius_b, share);
+        if (beyond < beyond_[i] && !query_.first_hit(center, inside_[i])) beyond_[i] = beyond;
+    }
+}
+
+float length_of(std::span<const Vec3> path) {
+    float sum = 0.0f;
+    for (std::size_t i = 1; i < path.size(); ++i) sum += glm::distance(path[i - 1], path[i]);
+    return sum;
+}
+
+}  // namespace zskel

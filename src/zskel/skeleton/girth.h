@@ -1,0 +1,16 @@
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "zskel/visibility/surface_query.h"
+
+namespace zskel {
+
+/// How thick the body is about a point inside: the median of the free way in even directions, at
+/// most three times the inscribed radius. The radius at the centre of a ball, 1.15 of it on the
+/// axis of a tube; where the section is flat more than the inscribed radius, so that the edges of a
+/// flat limb do not count as limbs of their own.
+std::vector<float> girths_at(const SurfaceQuery& query, std::span<const Vec3> points);
+
+}  // namespace zskel

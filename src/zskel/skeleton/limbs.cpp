@@ -1,0 +1,311 @@
+#include "zskel/skeleton/limbs.h"
+
+#include <algorithm>
+#include <array>
+#include <functional>
+#include <queue>
+#include <ranges>
+#include <utility>
+
+#include "zskel/skeleton/coverage.h"
+#include "zskel/skeleton/girth.h"
+
+namespace zskel {
+namespace {
+
+// The part of the cost from where a limb joins on to the core that counts in where it joins: limbs
+// join at acute angles, as they would not if they took the shortest way to the next branch.
+constexpr float kTrunkShare = 0.8f;
+constexpr float kNearTipGirths = 1.5f;  // a cluster so near to a seed's place needs no way on to it
+constexpr float kLastBallShare = 0.9f;  // a ball touches a place when it reaches so far towards it
+constexpr int kTipPieces = 8;           // that each straight of a tip is looked at in
+constexpr float kUnfreeCost = 1e3f;     // of connections that could not be laid inside
+
+struct Arc {
+    std::uint32_t to;
+    std::uint32_t connection;
+};
+using Arcs = std::vector<std::vector<Arc>>;
+
+template <typename Numbers>
+Arcs arcs_of(std::span<const Connection> connections, const Numbers& numbers,
+             std::size_t clusters) {
+    Arcs arcs(clusters);
+    for (const std::uint32_t i : numbers) {
+        arcs[connections[i].a].push_back({connections[i].b, i});
+        arcs[connections[i].b].push_back({connections[i].a, i});
+    }
+    return arcs;
+}
+
+// The thickest cluster of each part of a network.
+std::vector<bool> thickest_of(const Arcs& arcs, std::span<const float> girths) {
+    std::vector<bool> is_thickest(arcs.size(), false);
+    std::vector<bool> seen(arcs.size(), false);
+    for (std::uint32_t first = 0; first < arcs.size(); ++first) {
+        if (seen[first]) continue;
+        std::vector<std::uint32_t> part{first};
+        seen[first] = true;
+        std::uint32_t thickest = first;
+        for (std::size_t i = 0; i < part.size(); ++i) {
+            if (girths[part[i]] > girths[thickest]) thickest = part[i];
+            for (const Arc& arc : arcs[part[i]]) {
+                if (seen[arc.to]) continue;
+                seen[arc.to] = true;
+                part.push_back(arc.to);
+            }
+        }
+        is_thickest[thickest] = true;
+    }
+    return is_thickest;
+}
+
+// Which clusters are left when dead ends are taken off, but for the roots.
+std::vector<bool> core_of(const Arcs& arcs, const std::vector<bool>& is_root) {
+    std::vector<bool> is_left(arcs.size(), true);
+    std::vector<std::size_t> degree(arcs.size());
+    std::vector<std::uint32_t> loose;
+    for (std::uint32_t c = 0; c < arcs.size(); ++c) {
+        degree[c] = arcs[c].size();
+        if (degree[c] <= 1 && !is_root[c]) loose.push_back(c);
+    }
+    while (!loose.empty()) {
+        const std::uint32_t c = loose.back();
+        loose.pop_back();
+        is_left[c] = false;
+        for (const Arc& arc : arcs[c]) {
+            if (is_left[arc.to] && --degree[arc.to] == 1 && !is_root[arc.to])
+                loose.push_back(arc.to);
+        }
+    }
+    return is_left;
+}
+
+class LimbGrower {
+  public:
+    LimbGrower(const ClusterContext& context, const ClusterNetwork& network,
+               const LimbOptions& options)
+        : context_(context),
+          connections_(network.connections),
+          centers_(context.clusters.centers),
+          girths_(girths_at(context.query, context.clusters.centers)),
+          options_(options),
+          arcs_(arcs_of(connections_, std::views::iota(0u, connections_.size()), girths_.size())),
+          ways_(girths_.size()),
+          coverage_(seed_coverage(context)),
+          is_tried_(context.spread.vertices.size(), false) {}
+
+    Limbs run(std::span<const std::uint32_t> spanning) {
+        keep_core(spanning);
+        for (std::uint32_t seed = farthest_out(); seed != kNone; seed = farthest_out())
+            try_limb(seed);
+        for (std::uint32_t c = 0; c < girths_.size(); ++c)
+            out_.home.push_back(way_to_kept(c).back());
+        return std::move(out_);
+    }
+
+  private:
+    // From a cluster to the kept ones.
+    struct Way {
+        std::uint32_t next = kNone;  // cluster; itself where it is kept
+        std::uint32_t connection = kNone;
+        std::uint32_t root = kNone;  // where it ends
+        float cost = kInfinity;
+        float length = 0.0f;
+        float trunk = 0.0f;  // of a kept cluster: cost on to the core
+        bool is_kept = false;
+    };
+
+    struct Limb {
+        std::vector<std::uint32_t> way;  // clusters, from the outermost to the kept one
+        std::vector<Vec3> tip;
+        std::vector<float> tip_girths;
+    };
+
+    static Coverage seed_coverage(const ClusterContext& context) {
+        std::vector<Vec3> places;
+        std::vector<Vec3> inside;
+        for (const std::uint32_t v : context.spread.vertices) {
+            places.push_back(context.surface.positions[v]);
+            inside.push_back(context.inner[v]);
+        }
+        return {context.query, std::move(places), std::move(inside)};
+    }
+
+    // The cycles of the network, and what joins them; its thickest cluster where there are none.
+    void keep_core(std::span<const std::uint32_t> spanning) {
+        const Arcs arcs = arcs_of(connections_, spanning, girths_.size());
+        const std::vector<bool> is_core = core_of(arcs, thickest_of(arcs, girths_));
+        std::vector<std::uint32_t> core;
+        for (std::uint32_t c = 0; c < girths_.size(); ++c) {
+            if (is_core[c]) core.push_back(c);
+        }
+        keep(core);
+        for (const std::uint32_t i : spanning) {
+            if (is_core[connections_[i].a] && is_core[connections_[i].b]) keep_connection(i);
+        }
+    }
+
+    void keep_connection(std::uint32_t i) {
+        const Connection& c = connections_[i];
+        out_.connections.push_back(i);
+        coverage_.add(c.path, girths_[c.a], girths_[c.b]);
+    }
+
+    // Ways lead to kept clusters, and are found anew where they got shorter.
+    void keep(const std::vector<std::uint32_t>& kept) {
+        using Entry = std::pair<float, std::uint32_t>;
+        std::priority_queue<Entry, std::vector<Entry>, std::greater<>> front;
+        for (const std::uint32_t c : kept) {
+            const float trunk = ways_[c].trunk;
+            ways_[c] = {c, kNone, c, kTrunkShare * trunk, 0.0f, trunk, true};
+            front.emplace(ways_[c].cost, c);
+            coverage_.add(std::array{centers_[c], centers_[c]}, girths_[c], girths_[c]);
+        }
+        while (!front.empty()) {
+            const auto [cost, c] = front.top();
+            front.pop();
+            if (cost > ways_[c].cost) continue;
+            for (const Arc& arc : arcs_[c]) {
+                const Connection& connection = connections_[arc.connection];
+                Way& way = ways_[arc.to];
+                const float there = cost + cost_of(connection);
+                if (way.is_kept || there >= way.cost) continue;
+                way = {
+                    c,    arc.connection, ways_[c].root, there, ways_[c].length + connection.length,
+                    0.0f, false};
+                front.emplace(there, arc.to);
+            }
+        }
+    }
+
+    // Length in girths, so that ways run along the thick middle.
+    float cost_of(const Connection& c) const {
+        const float girth = std::max(0.5f * (girths_[c.a] + girths_[c.b]), 1e-6f);
+        return c.length / girth * (c.is_inside ? 1.0f : kUnfreeCost);
+    }
+
+    std::uint32_t farthest_out() const {
+        std::uint32_t best = kNone;
+        auto most = static_cast<float>(options_.detail * options_.least_world);
+        for (std::uint32_t s = 0; s < is_tried_.size(); ++s) {
+            const float out = is_tried_[s] ? 0.0f : sticking_out(s);
+            if (out <= most) continue;
+            most = out;
+            best = s;
+        }
+        return best;
+    }
+
+    // Of places that no ball sees: what the way to them is longer than the ball that it begins in.
+    float sticking_out(std::uint32_t seed) const {
+        const std::uint32_t c = context_.clusters.of_point[seed];
+        if (ways_[c].root == kNone) return 0.0f;
+        const float along = ways_[c].length + glm::distance(coverage_.places()[seed], centers_[c]);
+        return std::min(coverage_.beyond(seed), along - girths_[ways_[c].root]);
+    }
+
+    void try_limb(std::uint32_t seed) {
+        is_tried_[seed] = true;
+        Limb limb;
+        limb.way = way_to_kept(context_.clusters.of_point[seed]);
+        limb.tip = tip_of(limb.way.front(), seed);
+        limb.tip_girths = girths_at(context_.query, limb.tip);
+        const float out = sticking_out(seed);
+        if (!is_limb(limb, static_cast<double>(out))) {
+            ++out_.rejected;
+            out_.longest_rejected_world =
+                std::max(out_.longest_rejected_world, static_cast<double>(out));
+            return;
+        }
+        ++out_.limbs;
+        for (std::size_t i = limb.way.size() - 1; i-- > 0;) {
+            Way& way = ways_[limb.way[i]];
+            way.trunk = ways_[way.next].trunk + cost_of(connections_[way.connection]);
+            keep_connection(way.connection);
+        }
+        for (std::size_t i = 1; i < limb.tip.size(); ++i)
+            coverage_.add(std::span(limb.tip).subspan(i - 1, 2), limb.tip_girths[i - 1],
+                          limb.tip_girths[i]);
+        if (!limb.tip.empty()) out_.tips.push_back({limb.way.front(), limb.tip});
+        limb.way.pop_back();
+        keep(limb.way);
+    }
+
+    std::vector<std::uint32_t> way_to_kept(std::uint32_t cluster) const {
+        std::vector<std::uint32_t> way{cluster};
+        while (ways_[way.back()].next != way.back() && ways_[way.back()].next != kNone)
+            way.push_back(ways_[way.back()].next);
+        return way;
+    }
+
+    // From a cluster outwards along the way that a seed came, to the centre of the last ball that
+    // touches the seed's place; empty where the cluster is near that place already, or the way is
+    // not free.
+    std::vector<Vec3> tip_of(std::uint32_t cluster, std::uint32_t seed) const {
+        const Vec3& goal = coverage_.places()[seed];
+        if (glm::distance(centers_[cluster], goal) < kNearTipGirths * girths_[cluster]) return {};
+        const std::vector<Vec3>& came = context_.settled[seed].path;
+        std::vector<Vec3> path{centers_[cluster]};
+        path.insert(path.end(), came.rbegin(), came.rend());
+        path = pull_tight(path, context_.query);
+        if (!is_free(path, context_.query)) return {};
+        std::vector<Vec3> tip{path.front()};
+        for (std::size_t i = 1; i < path.size(); ++i) {
+            for (int k = 1; k <= kTipPieces; ++k)
+                tip.push_back(glm::mix(path[i - 1], path[i],
+                                       static_cast<float>(k) / static_cast<float>(kTipPieces)));
+        }
+        while (tip.size() > 1 && context_.query.nearest(tip.back()).distance >
+                                     kLastBallShare * glm::distance(tip.back(), goal))
+            tip.pop_back();
+        return tip.size() > 1 ? tip : std::vector<Vec3>{};
+    }
+
+    // The limb's own girth is that of what lies outside the ball that it grows from.
+    bool is_limb(const Limb& limb, double out) const {
+        const Vec3& root = centers_[limb.way.back()];
+        const float junction = girths_[limb.way.back()];
+        double outside = 0.0;
+        double girth_outside = 0.0;
+        const auto add = [&](float length, const Vec3& end, float girth) {
+            if (glm::distance(end, root) <= junction) return;
+            outside += static_cast<double>(length);
+            girth_outside += static_cast<double>(length * girth);
+        };
+        for (std::size_t i = 0; i + 1 < limb.way.size(); ++i) {
+            const std::uint32_t c = limb.way[i];
+            add(connections_[ways_[c].connection].length, centers_[c], girths_[c]);
+        }
+        for (std::size_t i = 1; i < limb.tip.size(); ++i)
+            add(glm::distance(limb.tip[i - 1], limb.tip[i]), limb.tip[i], limb.tip_girths[i]);
+        if (!(outside > 0.0)) return false;
+        const double own = out * outside / girth_outside / options_.detail;
+        const double of_junction = out / static_cast<double>(junction) / options_.detail;
+        const bool is_bare = !limb.tip.empty();
+        return own >= options_.least_own_girths && of_junction >= options_.least_junction_girths &&
+               own * of_junction >= options_.least_product &&
+               (!is_bare || own >= options_.bare_own_girths ||
+                out >= options_.detail * options_.bare_world);
+    }
+
+    const ClusterContext& context_;
+    std::span<const Connection> connections_;
+    std::span<const Vec3> centers_;
+    std::vector<float> girths_;
+    const LimbOptions& options_;
+    Arcs arcs_;
+    std::vector<Way> ways_;
+    Coverage coverage_;  // of the seeds' places
+    std::vector<bool> is_tried_;
+    Limbs out_;
+};
+
+}  // namespace
+
+Limbs grow_limbs(const ClusterContext& context, const ClusterNetwork& network,
+                 const LimbOptions& options) {
+    return LimbGrower(context, network, options).run(network.spanning);
+}
+
+}  // namespace zskel

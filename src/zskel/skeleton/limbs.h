@@ -1,0 +1,49 @@
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "zskel/skeleton/network.h"
+
+namespace zskel {
+
+/// What a limb must have. It sticks out of the balls along the rest of the skeleton; how far is
+/// measured in girths (see `girths_at`): of its own, outside the ball where it begins, and of the
+/// body at that place.
+struct LimbOptions {
+    double detail = 1.0;                 ///< scales all bounds: below 1 more limbs, above 1 fewer
+    double least_world = 0.02;           ///< sticks out at least this far, in the solid's size,
+    double least_own_girths = 1.0;       ///< this many of its own girths,
+    double least_junction_girths = 0.3;  ///< and of the body's,
+    double least_product = 0.5;          ///< and so much by the product of the two
+    double bare_own_girths =
+        2.5;                   ///< where no seed came to rest beyond the ball: so many of its own,
+    double bare_world = 0.08;  ///< or as far as this
+};
+
+/// What of a network is skeleton.
+struct Limbs {
+    /// A way on from the cluster at the end of a limb, along which a seed came.
+    struct Tip {
+        std::uint32_t cluster = 0;
+        std::vector<Vec3> path;  ///< from the cluster's centre outwards
+    };
+    std::vector<std::uint32_t> connections;  ///< kept
+    std::vector<Tip> tips;
+    std::vector<std::uint32_t> home;  ///< of every cluster: itself if kept, else the kept cluster
+                                      ///< that the best way from it leads to
+    std::size_t limbs = 0;            ///< grown
+    std::size_t rejected = 0;         ///< seeds that stuck out, but not far enough
+    double longest_rejected_world = 0.0;  ///< the farthest that one of those sticks out
+};
+
+/// Starts from the cycles of the network (where there is none, from its thickest cluster), and adds
+/// limbs as long as the surface at some seed sticks out of the balls along what is kept: the way
+/// from the rest place of the seed that sticks out farthest, along the thick middle, and on to
+/// where the seed came from if its place is still far.
+/// @see Sato et al. 2000 (TEASAR) for paths from the farthest place not covered; the measures of
+///      what is covered and what is a limb are ours.
+Limbs grow_limbs(const ClusterContext& context, const ClusterNetwork& network,
+                 const LimbOptions& options);
+
+}  // namespace zskel

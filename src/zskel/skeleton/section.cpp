@@ -1,0 +1,59 @@
+#include "zskel/skeleton/section.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+
+namespace zskel {
+namespace {
+
+constexpr std::size_t kPairs = 16;
+constexpr float kFarthest = 4.0f;  // more than any solid's width in world units
+constexpr double kMostMedians = 3.0;
+
+double free_way(const SurfaceQuery& query, const Vec3& from, const DVec3& direction) {
+    const auto hit = query.first_hit(from, from + Vec3(direction) * kFarthest);
+    return static_cast<double>(hit ? hit->fraction * kFarthest : kFarthest);
+}
+
+}  // namespace
+
+Vec3 step_to_section_centre(const SurfaceQuery& query, const Vec3& point, const Vec3& tangent) {
+    const DVec3 along(tangent);
+    const DVec3 helper = std::abs(along.x) < 0.8 ? DVec3(1, 0, 0) : DVec3(0, 1, 0);
+    const DVec3 across = glm::normalize(glm::cross(along, helper));
+    const DVec3 up = glm::cross(along, across);
+    std::array<DVec3, kPairs> directions;
+    std::array<double, 2 * kPairs> ways{};
+    for (std::size_t i = 0; i < kPairs; ++i) {
+        const double angle = std::numbers::pi * static_cast<double>(i) / kPairs;
+        directions[i] = across * std::cos(angle) + up * std::sin(angle);
+        ways[i] = free_way(query, point, directions[i]);
+        ways[i + kPairs] = free_way(query, point, -directions[i]);
+    }
+    std::array<double, 2 * kPairs> sorted = ways;
+    std::nth_element(sorted.begin(), sorted.begin() + kPairs, sorted.end());
+    const double limit = kMostMedians * sorted[kPairs];
+    // A move m changes (u - v) / (u + v) by -2 m.d / (u + v): normal equations in the plane.
+    double aa = 0.0, ab = 0.0, bb = 0.0, ra = 0.0, rb = 0.0;
+    for (std::size_t i = 0; i < kPairs; ++i) {
+        const double u = std::min(ways[i], limit);
+        const double v = std::min(ways[i + kPairs], limit);
+        if (!(u + v > 0.0)) return Vec3(0.0f);
+        const double a = 2.0 * glm::dot(directions[i], across) / (u + v);
+        const double b = 2.0 * glm::dot(directions[i], up) / (u + v);
+        const double rest = (u - v) / (u + v);
+        aa += a * a;
+        ab += a * b;
+        bb += b * b;
+        ra += a * rest;
+        rb += b * rest;
+    }
+    const double determinant = aa * bb - ab * ab;
+    if (!(determinant > 1e-9 * aa * bb)) return Vec3(0.0f);
+    return Vec3(across * ((bb * ra - ab * rb) / determinant) +
+                up * ((aa * rb - ab * ra) / determinant));
+}
+
+}  // namespace zskel
