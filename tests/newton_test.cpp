@@ -6,7 +6,6 @@
 #include "zskel/core/parallel.h"
 #include "zskel/extract.h"
 #include "zskel/io/skeleton_formats.h"
-#include "zskel/mesh/homology.h"
 #include "zskel/mesh/solid.h"
 #include "zskel/skeleton/spread.h"
 #include "zskel/visibility/cube_map.h"
@@ -44,11 +43,6 @@ double inside_share(const ExtractResult& result) {
         }
     }
     return all == 0 ? 1.0 : static_cast<double>(inside) / static_cast<double>(all);
-}
-
-std::vector<Vec3> inner_of(const Surface& surface) {
-    const SurfaceQuery query(surface);
-    return inner_points(surface, vertex_thickness(surface, query), {});
 }
 
 }  // namespace
@@ -121,18 +115,6 @@ TEST_CASE("newton: two linked tori are two cycles, each its own") {
     CHECK(graph_topology(result.graph).cycles == 2);
 }
 
-TEST_CASE("newton: a torus-shaped cavity in a ball gives one cycle, a ball-shaped one none") {
-    const Mesh ball = test::sphere(0.5, 4);
-    const ExtractResult ring = extract(test::together(ball, test::torus(0.25, 0.08)));
-    CHECK(ring.statistics.cavities == 1);
-    CHECK(graph_topology(ring.graph).cycles == 1);
-    CHECK(graph_topology(ring.graph).components == 1);
-    const ExtractResult hollow = extract(test::together(ball, test::sphere(0.2, 3)));
-    CHECK(hollow.statistics.cavities == 1);
-    CHECK(graph_topology(hollow.graph).cycles == 0);
-    CHECK(graph_topology(hollow.graph).components == 1);
-}
-
 TEST_CASE("newton: at most about five evaluations a seed on a tube") {
     const ExtractResult result = extract(test::torus());
     std::size_t sum = 0;
@@ -165,51 +147,4 @@ TEST_CASE(
     // across.
     CHECK(spread.spacing_thickness < 0.25);
     CHECK(spread_seeds(prepared.surface, even, {0, 0.0}).vertices.size() == even.size());
-}
-
-TEST_CASE("find_handles: a torus has one class, 1 round the hole and 0 round the tube") {
-    const PreparedSurface prepared = prepare_surface(test::torus(0.35, 0.12, 32, 16));
-    const Surface& surface = prepared.surface;
-    std::string why;
-    const auto handles = find_handles(surface, inner_of(surface), why);
-    REQUIRE(handles.has_value());
-    CHECK(handles->genus == 1);
-    const auto class_along = [&](const std::vector<std::uint32_t>& loop) {
-        int sum = 0;
-        for (std::size_t i = 0; i < loop.size(); ++i) {
-            const std::uint32_t a = loop[i];
-            const std::uint32_t b = loop[(i + 1) % loop.size()];
-            for (std::size_t e = 0; e < surface.edges.size(); ++e) {
-                if (surface.edges[e] == glm::uvec2(std::min(a, b), std::max(a, b))) {
-                    sum += (a < b ? 1 : -1) * handles->edge_class[e];
-                }
-            }
-        }
-        return sum;
-    };
-    std::vector<std::uint32_t> round_hole;
-    for (std::uint32_t i = 0; i < 32; ++i) round_hole.push_back(prepared.surface_vertex[i * 16]);
-    std::vector<std::uint32_t> round_tube;
-    for (std::uint32_t k = 0; k < 16; ++k) round_tube.push_back(prepared.surface_vertex[k]);
-    CHECK(std::abs(class_along(round_hole)) == 1);
-    CHECK(class_along(round_tube) == 0);
-}
-
-TEST_CASE("find_handles: an open surface has no answer, and says why") {
-    Mesh open = test::cube();
-    open.triangles.pop_back();
-    const PreparedSurface prepared = prepare_surface(open);
-    std::string why;
-    CHECK_FALSE(find_handles(prepared.surface, inner_of(prepared.surface), why).has_value());
-    CHECK_FALSE(why.empty());
-}
-
-TEST_CASE("is_primitive: parts of integer bases, and what only spans a sublattice") {
-    CHECK(is_primitive({{1, 0, 0}}));
-    CHECK(is_primitive({{2, 3}}));
-    CHECK(is_primitive({{2, 3}, {1, 1}}));
-    CHECK_FALSE(is_primitive({{2, 0}}));
-    CHECK_FALSE(is_primitive({{0, 0}}));
-    CHECK_FALSE(is_primitive({{1, 1}, {1, -1}}));
-    CHECK_FALSE(is_primitive({{1, 2}, {2, 4}}));
 }

@@ -61,8 +61,8 @@ std::vector<DepthDump> DepthProbe::along_path(std::uint32_t vertex, const Extrac
         throw UsageError(fmt::format("{}: vertex {} has no face, so no seed", mesh_.name, vertex));
     for (const auto& part : parts_) {
         const auto& owned = part->solid.vertex;
-        const auto at = std::lower_bound(owned.begin(), owned.end(), place);
-        if (at == owned.end() || *at != place) continue;
+        const auto at = std::find(owned.begin(), owned.end(), place);
+        if (at == owned.end()) continue;
         if (!part->source) part->source = backend_.prepare(part->solid.surface);
         const auto local = static_cast<std::size_t>(at - owned.begin());
         const Seed seed = place_seeds(part->solid.surface, part->query, options.paper.seeds)[local];

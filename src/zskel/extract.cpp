@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <chrono>
 #include <numeric>
@@ -102,6 +103,11 @@ class Assembler {
             add_seed(to_world, part.seeds[s], part.settled[s], surface_node_[place],
                      input_vertex_[place]);
         }
+        for (const SmallHandle& handle : part.ignored_handles) {
+            result_.ignored_handles.push_back({to_world.length_to_model(handle.radius),
+                                               to_world.to_model(handle.position), handle.is_cut,
+                                               number});
+        }
         ExtractStatistics& sums = result_.statistics;
         sums.cavities += solid.cavity_count;
         sums.forest_edges += part.forest_edges;
@@ -142,19 +148,40 @@ class Assembler {
     std::vector<std::uint32_t> input_vertex_;  // the lowest at each place
 };
 
+// What is known of the parts that are no solids, by method newton, and of what lies in solids.
+void add_part_warnings(const std::vector<Solid>& solids, const ExtractOptions& options,
+                       ExtractResult& result) {
+    const auto open = std::count_if(solids.begin(), solids.end(),
+                                    [](const Solid& solid) { return !solid.is_closed; });
+    if (open > 0) {
+        result.warnings.push_back(fmt::format(
+            "{} of {} parts are not closed: {}", open, solids.size(),
+            options.method == Method::Paper
+                ? "seeds may drift out through openings"
+                : "the skeleton of each is in one piece and without cycles, whatever the part's "
+                  "handles; it may leave through openings"));
+    }
+    const std::size_t cavities = result.statistics.cavities;
+    if (cavities > 0) {
+        result.warnings.push_back(
+            fmt::format("{}: the skeleton lies between the shells",
+                        cavities == 1 ? "1 cavity" : fmt::format("{} cavities", cavities)));
+    }
+    if (!result.ignored_handles.empty()) {
+        result.warnings.push_back(
+            fmt::format("handles of a radius below {} left without a cycle: {}",
+                        options.newton.min_handle_model, result.ignored_handles.size()));
+    }
+}
+
 // Says what a reader of the skeleton should not take on trust.
-void add_warnings(const Mesh& mesh, const std::vector<Solid>& solids, ExtractResult& result) {
+void add_warnings(const Mesh& mesh, const std::vector<Solid>& solids, const ExtractOptions& options,
+                  ExtractResult& result) {
     result.warnings.insert(result.warnings.begin(), mesh.warnings.begin(), mesh.warnings.end());
     for (const Repair& repair : result.repairs) {
         result.warnings.push_back(fmt::format("{}: {}", repair.what, repair.count));
     }
-    std::size_t open = 0;
-    for (const Solid& solid : solids) open += solid.is_closed ? 0 : 1;
-    if (open > 0) {
-        result.warnings.push_back(
-            fmt::format("{} of {} parts are not closed: seeds may drift out through openings", open,
-                        solids.size()));
-    }
+    add_part_warnings(solids, options, result);
     std::array<std::size_t, 4> states{};
     for (const SeedReport& seed : result.seeds) ++states[static_cast<std::size_t>(seed.state)];
     for (const SeedState state : {SeedState::StepLimit, SeedState::LeftMesh, SeedState::NoHits}) {
@@ -203,7 +230,7 @@ ExtractResult extract_skeleton(const Mesh& mesh, const ExtractOptions& options, 
     assembler.map_vertices(prepared);
     stages.end();
     result.surface = std::move(prepared.surface);
-    add_warnings(mesh, solids, result);
+    add_warnings(mesh, solids, options, result);
     return result;
 }
 

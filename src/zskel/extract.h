@@ -50,6 +50,14 @@ struct SeedReport {
     std::vector<DVec3> path;  ///< start to end; empty unless paths are kept
 };
 
+/// A handle that was too small to be given a cycle, in model space.
+struct IgnoredHandle {
+    double radius = 0.0;  ///< length of its shortest loop over 2 pi
+    DVec3 position{0.0};  ///< middle of that loop
+    bool is_cut = false;  ///< the loop goes round the handle itself; otherwise round its hole
+    std::uint32_t solid = 0;
+};
+
 struct StageTime {
     std::string stage;
     double seconds = 0.0;
@@ -62,9 +70,10 @@ struct ExtractStatistics {
     std::size_t cavities = 0;
     std::size_t seeds = 0;
     std::size_t evaluations = 0;
-    std::size_t expected_cycles = 0;  ///< handles of the closed solids; newton only
-    std::size_t limbs = 0;            ///< branches grown; newton only
-    std::size_t rejected_limbs = 0;   ///< that were too small
+    std::size_t expected_cycles =
+        0;                  ///< handles of the closed solids, but those ignored; newton only
+    std::size_t limbs = 0;  ///< branches grown; newton only
+    std::size_t rejected_limbs = 0;  ///< that were too small
     RefineReport refine;
     std::size_t forest_edges =
         0;  ///< edges that are left when every cycle is opened at its longest
@@ -75,6 +84,7 @@ struct ExtractStatistics {
 struct ExtractResult {
     SkeletonGraph graph;
     std::vector<SeedReport> seeds;
+    std::vector<IgnoredHandle> ignored_handles;  ///< of each solid the smallest first
     ExtractStatistics statistics;
     std::vector<Repair> repairs;
     std::vector<std::string> warnings;

@@ -58,6 +58,8 @@ case_usage() {
     refused 2 '--step' extract cube.obj --step
     local value
     for value in 0 -1 nan inf x ''; do refused 2 '--step' extract cube.obj --step="$value"; done
+    for value in -1 nan inf x ''; do refused 2 '--min-handle' extract cube.obj --min-handle="$value"; done
+    refused 2 '--min-handle goes with --method newton' extract cube.obj --method paper --min-handle 1
     refused 2 '--cluster' extract cube.obj --cluster -1
     refused 2 '--offset' extract cube.obj --offset nan
     refused 2 '--max-steps' extract cube.obj --max-steps 0

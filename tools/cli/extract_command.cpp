@@ -185,6 +185,16 @@ void add_method_options(CLI::App& command, Arguments& arguments) {
             ->capture_default_str()
             ->check(CLI::Range(0.01, 100.0))
             ->group(kNewton),
+        command
+            .add_option(
+                "--min-handle", newton.min_handle_model,
+                "Handles of a smaller radius get no cycle; they are counted and listed. The "
+                "radius, in the model's units, is the length over 2 pi of the shortest loop "
+                "round the handle or round its hole. 0: every handle gets its cycle")
+            ->type_name("R")
+            ->capture_default_str()
+            ->check(length_or_zero())
+            ->group(kNewton),
     };
     arguments.paper_only = {
         command.add_option("--step", paper.steps.step_world, "Length of a step, in the unit cube")

@@ -68,6 +68,18 @@ Json vertex_node_json(const SkeletonGraph& graph) {
     return list;
 }
 
+// "cut": the loop measured goes round the handle itself; "filled": round the hole.
+Json handles_json(const ExtractResult& result) {
+    Json list = Json::array();
+    for (const IgnoredHandle& handle : result.ignored_handles) {
+        list.push_back({{"radius", handle.radius},
+                        {"position", point(handle.position)},
+                        {"treated_as", handle.is_cut ? "cut" : "filled"},
+                        {"solid", handle.solid}});
+    }
+    return list;
+}
+
 Json statistics_json(const ExtractResult& result) {
     const ExtractStatistics& s = result.statistics;
     const GraphTopology topology = graph_topology(result.graph);
@@ -92,6 +104,7 @@ Json statistics_json(const ExtractResult& result) {
             {"components", topology.components},
             {"cycles", topology.cycles},
             {"expected_cycles", s.expected_cycles},
+            {"ignored_handles", result.ignored_handles.size()},
             {"limbs", s.limbs},
             {"rejected_limbs", s.rejected_limbs},
             {"merged_junctions", s.refine.merged_junctions},
@@ -122,6 +135,7 @@ Json options_json(const Provenance& provenance) {
                     {"spacing_thickness", o.newton.spread.spacing_thickness},
                     {"max_steps", o.newton.steps.max_steps},
                     {"cluster_radii", o.newton.cluster_radii},
+                    {"min_handle_model", o.newton.min_handle_model},
                     {"detail", o.newton.limbs.detail},
                     {"sweeps", o.newton.refine.sweeps}});
     }
@@ -200,6 +214,7 @@ std::string object(const Members& members) {
 std::string skeleton_json(const ExtractResult& result, const Provenance& provenance,
                           const JsonParts& parts) {
     Members members = graph_members(result.graph);
+    members.emplace_back("ignored_handles", rows(handles_json(result)));
     members.emplace_back("statistics", text(statistics_json(result)));
     members.emplace_back("warnings", rows(Json(result.warnings)));
     members.emplace_back("provenance",

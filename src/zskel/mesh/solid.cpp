@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "zskel/core/disjoint_sets.h"
+#include "zskel/core/edges.h"
 #include "zskel/mesh/winding.h"
 
 namespace zskel {
@@ -49,6 +51,54 @@ bool contains(const std::vector<Vec3>& positions, const Component& outer, const 
     return true;
 }
 
+// Gives every fan of triangles at a vertex a vertex of its own. Fans over an edge of more than two
+// triangles count as one.
+void part_fans(Solid& solid) {
+    std::vector<Triangle>& triangles = solid.surface.triangles;
+    struct Corner {
+        glm::uvec2 edge;  // lower vertex first
+        std::uint32_t low;
+        std::uint32_t high;  // corners at its vertices: 3 x triangle + place in it
+    };
+    std::vector<Corner> corners;
+    for (std::uint32_t t = 0; t < triangles.size(); ++t) {
+        for (std::uint32_t k = 0; k < 3; ++k) {
+            const std::uint32_t next = (k + 1) % 3;
+            glm::uvec2 edge(triangles[t][static_cast<int>(k)],
+                            triangles[t][static_cast<int>(next)]);
+            std::uint32_t low = 3 * t + k;
+            std::uint32_t high = 3 * t + next;
+            if (edge.x > edge.y) {
+                std::swap(edge.x, edge.y);
+                std::swap(low, high);
+            }
+            corners.push_back({edge, low, high});
+        }
+    }
+    std::sort(corners.begin(), corners.end(),
+              [](const Corner& l, const Corner& r) { return edge_before(l.edge, r.edge); });
+    DisjointSets fans(triangles.size() * 3);
+    for (std::size_t i = 1; i < corners.size(); ++i) {
+        if (corners[i].edge != corners[i - 1].edge) continue;
+        fans.unite(corners[i].low, corners[i - 1].low);
+        fans.unite(corners[i].high, corners[i - 1].high);
+    }
+    std::vector<bool> is_taken(solid.vertex.size(), false);
+    std::vector<std::uint32_t> of_fan(triangles.size() * 3, kNone);
+    for (std::uint32_t corner = 0; corner < of_fan.size(); ++corner) {
+        std::uint32_t& vertex = triangles[corner / 3][static_cast<int>(corner % 3)];
+        std::uint32_t& own = of_fan[fans.find(corner)];
+        if (own == kNone && is_taken[vertex]) {
+            own = static_cast<std::uint32_t>(solid.vertex.size());
+            solid.vertex.push_back(solid.vertex[vertex]);
+        } else if (own == kNone) {
+            own = vertex;
+            is_taken[vertex] = true;
+        }
+        vertex = own;
+    }
+}
+
 Solid make_solid(const PreparedSurface& prepared, const Component& shell,
                  const std::vector<const Component*>& cavities) {
     Solid solid;
@@ -73,6 +123,7 @@ Solid make_solid(const PreparedSurface& prepared, const Component& shell,
             t[k] = static_cast<std::uint32_t>(at - solid.vertex.begin());
         }
     }
+    part_fans(solid);
     for (const std::uint32_t v : solid.vertex) {
         surface.positions.push_back(prepared.surface.positions[v]);
     }

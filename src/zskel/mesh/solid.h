@@ -18,7 +18,8 @@ struct Solid {
     bool is_closed = false;
 };
 
-/// Groups the components of a surface into solids by nesting. Closed components inside an even
+/// Groups the components of a surface into solids by nesting. Where a surface touches itself in a
+/// vertex, its solid has a vertex for each fan of triangles there. Closed components inside an even
 /// number of others are outer shells; those inside an odd number are cavities of the nearest shell
 /// round them. A component counts as inside another when all of up to 16 sample vertices have a
 /// winding number above one half. Work: (closed components whose boxes nest) x triangles.

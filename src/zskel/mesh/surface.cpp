@@ -228,7 +228,10 @@ void orient(Welded& welded, PreparedSurface& out) {
             {"non-manifold edges kept: topology is not guaranteed", crowded_edges});
     }
     if (contradictions > 0) {
-        out.repairs.push_back({"edges where no consistent orientation exists", contradictions / 2});
+        out.repairs.push_back(
+            {"edges where no consistent orientation exists: there, inside and outside are not "
+             "known",
+             contradictions / 2});
     }
 }
 

@@ -5,6 +5,7 @@
 #include <string_view>
 #include <vector>
 
+#include "zskel/mesh/small_handles.h"
 #include "zskel/skeleton/cluster.h"
 #include "zskel/skeleton/limbs.h"
 #include "zskel/skeleton/newton.h"
@@ -25,8 +26,9 @@ struct SolidSkeleton {
     std::vector<Seed> seeds;
     std::vector<SettledSeed> settled;  ///< of every seed
     std::size_t forest_edges = 0;      ///< edges left when every cycle is opened at its longest
-    std::size_t expected_cycles = 0;   ///< handles; 0 where they are not known
-    std::size_t limbs = 0;             ///< that grew from the cycles or the thickest node
+    std::size_t expected_cycles = 0;   ///< handles but those ignored; 0 where they are not known
+    std::vector<SmallHandle> ignored_handles;
+    std::size_t limbs = 0;  ///< that grew from the cycles or the thickest node
     std::size_t rejected_limbs = 0;
     RefineReport refine;
     std::vector<std::string> warnings;
@@ -57,7 +59,8 @@ struct NewtonMethodOptions {
     double min_cluster_world = 0.006;  ///< but between these
     double max_cluster_world = 0.05;
     LimbOptions limbs;
-    int max_retries = 4;  ///< each with half the range, when clusters have swallowed a handle
+    int max_retries = 4;            ///< each with half the range where clusters go round a handle
+    double min_handle_model = 0.0;  ///< handles of a smaller radius get no cycle; see SmallHandle
     RefineOptions refine;
 };
 SolidSkeleton extract_by_newton(const Surface& surface, bool is_closed, VisibilitySource& source,

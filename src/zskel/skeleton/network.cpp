@@ -1,55 +1,54 @@
 #include "zskel/skeleton/network.h"
 
 #include <algorithm>
-#include <map>
+#include <numbers>
 #include <numeric>
+#include <set>
+#include <tuple>
 #include <utility>
 
 #include "zskel/core/disjoint_sets.h"
 #include "zskel/core/parallel.h"
-#include "zskel/mesh/vertex_graph.h"
+#include "zskel/skeleton/shell_bridges.h"
 
 namespace zskel {
 namespace {
 
-using Class = std::vector<std::int64_t>;
+using Class = HandleClasses::Class;
 
 struct Candidate {
     Connection connection;
-    Class cls;  // along the mesh edge, from root to root of the two patches
+    std::uint32_t edge = 0;  // from vertex_a to vertex_b
+    std::uint64_t sum = 0;   // of the walk from centre to centre over it
 };
 
 void add_to(Class& sum, const Class& other, std::int64_t sign) {
     for (std::size_t k = 0; k < sum.size(); ++k) sum[k] += sign * other[k];
 }
 
-class Network {
+float distance_to(const Vec3& from, const Vec3& to, const Vec3& point) {
+    const Vec3 way = to - from;
+    const float length2 = glm::dot(way, way);
+    const float share = length2 > 0.0f ? glm::dot(point - from, way) / length2 : 0.0f;
+    return glm::distance(point, from + way * std::clamp(share, 0.0f, 1.0f));
+}
+
+class Connector {
   public:
-    Network(const ClusterContext& context, const std::optional<HandleClasses>& handles)
-        : context_(context),
-          handles_(handles),
-          genus_(handles ? handles->genus : 0),
-          graph_(context.surface.positions.size(), context.surface.edges) {
-        walk_patches();
+    Connector(const ClusterContext& context, const HandleClasses& handles)
+        : context_(context), handles_(handles), walks_(context, handles) {
         gather();
         parallel_for(candidates_.size(), 8, [&](std::size_t begin, std::size_t end) {
-            for (std::size_t i = begin; i < end; ++i) lay_path(candidates_[i].connection);
+            for (std::size_t i = begin; i < end; ++i) lay_path(candidates_[i]);
         });
     }
 
-    ClusterNetwork choose() {
-        std::vector<std::uint32_t> order(candidates_.size());
-        std::iota(order.begin(), order.end(), 0u);
-        std::stable_sort(order.begin(), order.end(), [&](auto l, auto r) {
-            const Connection& a = candidates_[l].connection;
-            const Connection& b = candidates_[r].connection;
-            return std::pair(!a.is_inside, a.length) < std::pair(!b.is_inside, b.length);
-        });
+    ClusterNetwork run() {
         ClusterNetwork out;
-        std::vector<std::uint32_t> others;
         DisjointSets sets(context_.clusters.centers.size());
         tree_.assign(context_.clusters.centers.size(), {});
-        for (const std::uint32_t i : order) {
+        std::vector<std::uint32_t> others;
+        for (const std::uint32_t i : order()) {
             const Connection& c = candidates_[i].connection;
             if (!sets.unite(c.a, c.b)) {
                 others.push_back(i);
@@ -59,10 +58,10 @@ class Network {
             tree_[c.a].push_back({c.b, i, 1});
             tree_[c.b].push_back({c.a, i, -1});
         }
-        out.has_all_cycles = genus_ == 0 || add_cycles(others, out.spanning);
+        out.has_all_cycles = add_cycles(others, out.spanning);
         for (Candidate& candidate : candidates_)
             out.connections.push_back(std::move(candidate.connection));
-        bridge_shells(sets, out);
+        bridge_shells(context_, sets, out);
         return out;
     }
 
@@ -73,228 +72,124 @@ class Network {
         std::int64_t sign;
     };
 
-    std::uint32_t cluster_of(std::uint32_t vertex) const {
-        return context_.clusters.of_point[context_.spread.seed_of[vertex]];
-    }
+    // What a cluster's way from the root of its tree is.
+    struct Place {
+        std::uint32_t parent = kNone;
+        std::uint32_t depth = 0;
+        float reach = 0.0f;
+        std::uint64_t sum = 0;
+        Class cls;
+    };
 
-    Class class_of(std::uint32_t edge, bool forward) const {
-        Class out(genus_, 0);
-        for (std::size_t k = 0; k < genus_; ++k) {
-            out[k] = (forward ? 1 : -1) * handles_->edge_class[edge * genus_ + k];
-        }
-        return out;
-    }
+    struct Cycle {
+        std::uint32_t candidate;
+        float length;
+        std::uint64_t sum;
+    };
 
-    // The class of the way to every vertex from the first seed of its cluster: from seed to seed
-    // where their patches meet or a shortcut joins them, then within the patch.
-    void walk_patches() {
-        if (genus_ == 0) return;
-        walk_cells();
-        const std::map<std::pair<std::uint32_t, std::uint32_t>, Class> seed_links =
-            classify_links();
-        const auto link_class = [&](std::uint32_t a, std::uint32_t b) {
-            Class cls(genus_, 0);
-            add_to(cls, seed_links.at(std::minmax(a, b)), a < b ? 1 : -1);
-            return cls;
-        };
-        struct Way {
-            std::uint32_t seed;
-            Class cls;
-        };
-        const std::size_t seeds = context_.spread.vertices.size();
-        std::vector<std::vector<Way>> ways(seeds);
-        const auto add_way = [&](std::uint32_t a, std::uint32_t b, const Class& cls) {
-            if (context_.clusters.of_point[a] != context_.clusters.of_point[b]) return;
-            Class back(genus_, 0);
-            add_to(back, cls, -1);
-            ways[a].push_back({b, cls});
-            ways[b].push_back({a, std::move(back)});
-        };
-        for (const glm::uvec2& link : context_.links)
-            add_way(link.x, link.y, link_class(link.x, link.y));
-        for (const Shortcut& shortcut : context_.shortcuts) {
-            Class cls(genus_, 0);
-            for (std::size_t i = 1; i < shortcut.walk.size(); ++i) {
-                add_to(cls, link_class(shortcut.walk[i - 1], shortcut.walk[i]), 1);
-            }
-            add_way(shortcut.walk.front(), shortcut.walk.back(), cls);
-        }
-        std::vector<Class> to_seed(seeds);
-        for (std::uint32_t root = 0; root < seeds; ++root) {
-            if (!to_seed[root].empty()) continue;
-            to_seed[root].assign(genus_, 0);
-            std::vector<std::uint32_t> queue{root};
-            for (std::size_t i = 0; i < queue.size(); ++i) {
-                for (const Way& way : ways[queue[i]]) {
-                    if (!to_seed[way.seed].empty()) continue;
-                    to_seed[way.seed] = to_seed[queue[i]];
-                    add_to(to_seed[way.seed], way.cls, 1);
-                    queue.push_back(way.seed);
-                }
-            }
-        }
-        for (std::uint32_t v = 0; v < graph_.size(); ++v)
-            add_to(from_root_[v], to_seed[context_.spread.seed_of[v]], 1);
-    }
-
-    // The class of the way from its seed's vertex to every vertex, along the parents.
-    void walk_cells() {
-        from_root_.assign(graph_.size(), {});
-        for (std::uint32_t v = 0; v < graph_.size(); ++v) {
-            std::vector<std::uint32_t> way;
-            std::uint32_t at = v;
-            for (; from_root_[at].empty() && context_.spread.parent[at] != at;
-                 at = context_.spread.parent[at]) {
-                way.push_back(at);
-            }
-            if (from_root_[at].empty()) from_root_[at].assign(genus_, 0);
-            for (auto next = way.rbegin(); next != way.rend(); ++next) {
-                from_root_[*next] = from_root_[at];
-                add_to(from_root_[*next], class_between(at, *next), 1);
-                at = *next;
-            }
-        }
-    }
-
-    Class class_between(std::uint32_t v, std::uint32_t w) const {
-        for (const VertexGraph::Link& link : graph_.of(v)) {
-            if (link.vertex == w) return class_of(link.edge, v < w);
-        }
-        return Class(genus_, 0);
-    }
-
-    // Of every two seeds whose patches meet, lower first: the class of the way between their
-    // vertices.
-    std::map<std::pair<std::uint32_t, std::uint32_t>, Class> classify_links() const {
-        std::map<std::pair<std::uint32_t, std::uint32_t>, Class> out;
-        for (std::uint32_t e = 0; e < context_.surface.edges.size(); ++e) {
-            std::uint32_t v = context_.surface.edges[e].x;
-            std::uint32_t w = context_.surface.edges[e].y;
-            if (context_.spread.seed_of[v] == context_.spread.seed_of[w]) continue;
-            if (context_.spread.seed_of[v] > context_.spread.seed_of[w]) std::swap(v, w);
-            const auto [at, is_new] = out.try_emplace(
-                {context_.spread.seed_of[v], context_.spread.seed_of[w]}, from_root_[v]);
-            if (!is_new) continue;
-            add_to(at->second, class_between(v, w), 1);
-            add_to(at->second, from_root_[w], -1);
-        }
-        return out;
-    }
-
-    // One candidate for each pair of clusters and class.
+    // One candidate for each pair of clusters and class, up to its direction where both are one.
     void gather() {
-        std::map<std::pair<std::pair<std::uint32_t, std::uint32_t>, Class>, std::size_t> known;
+        std::set<std::tuple<std::uint32_t, std::uint32_t, std::uint64_t>> known;
         for (std::uint32_t e = 0; e < context_.surface.edges.size(); ++e) {
             std::uint32_t v = context_.surface.edges[e].x;
             std::uint32_t w = context_.surface.edges[e].y;
-            if (cluster_of(v) == cluster_of(w)) continue;
-            Class cls = class_of(e, true);
-            if (cluster_of(v) > cluster_of(w)) {
-                std::swap(v, w);
-                cls = class_of(e, false);
-            }
-            if (genus_ > 0) {
-                add_to(cls, from_root_[v], 1);
-                add_to(cls, from_root_[w], -1);
-            }
-            Candidate candidate{{cluster_of(v), cluster_of(w), v, w, {}, 0.0f, true}, cls};
-            const auto [at, is_new] = known.try_emplace(
-                {{candidate.connection.a, candidate.connection.b}, cls}, candidates_.size());
-            if (is_new) candidates_.push_back(std::move(candidate));
+            if (walks_.cluster_of(v) > walks_.cluster_of(w)) std::swap(v, w);
+            const std::uint32_t a = walks_.cluster_of(v);
+            const std::uint32_t b = walks_.cluster_of(w);
+            const std::uint64_t sum =
+                walks_.sum_to(v) + handles_.edge_sum(e, v < w) - walks_.sum_to(w);
+            if (a == b && sum == 0) continue;
+            const std::uint64_t key = a == b ? std::min(sum, 0 - sum) : sum;
+            if (!known.emplace(a, b, key).second) continue;
+            candidates_.push_back({{a, b, v, w, {}, 0.0f, true}, e, sum});
         }
     }
 
-    // Straight when that is free; else down the way of one seed, along the surface, and up the
-    // other's.
-    void lay_path(Connection& c) const {
-        const Vec3& from = context_.clusters.centers[c.a];
-        const Vec3& to = context_.clusters.centers[c.b];
-        c.path = {from, to};
-        if (!is_free(c.path, context_.query)) {
-            std::vector<Vec3> way{from};
-            append_way(c.vertex_a, way);
-            std::vector<Vec3> back{to};
-            append_way(c.vertex_b, back);
-            way.insert(way.end(), back.rbegin(), back.rend());
-            c.path = pull_tight(way, context_.query);
-            c.is_inside = is_free(c.path, context_.query);
+    // Straight where that is free and the same way round all handles; else along the surface,
+    // pulled tight.
+    void lay_path(Candidate& candidate) const {
+        Connection& c = candidate.connection;
+        c.path = {context_.clusters.centers[c.a], context_.clusters.centers[c.b]};
+        if (c.a == c.b || !is_way(c.path, candidate.sum) || !is_free(c.path, context_.query)) {
+            c.path = joined(walks_.short_way_to(c.vertex_a), walks_.short_way_to(c.vertex_b));
+            const bool is_short = is_way(c.path, candidate.sum) && tighten(c);
+            if (!is_short) {
+                c.path = joined(walks_.walk_to(c.vertex_a), walks_.walk_to(c.vertex_b));
+                c.is_inside = tighten(c);
+            }
         }
         c.length = 0.0f;
         for (std::size_t i = 1; i < c.path.size(); ++i)
             c.length += glm::distance(c.path[i - 1], c.path[i]);
     }
 
-    // From the end of the vertex's seed, back along its path to its start, then over the surface to
-    // the vertex.
-    void append_way(std::uint32_t vertex, std::vector<Vec3>& way) const {
-        const SettledSeed& seed = context_.settled[context_.spread.seed_of[vertex]];
-        way.insert(way.end(), seed.path.rbegin(), seed.path.rend());
-        std::vector<Vec3> over;
-        for (std::uint32_t v = vertex;; v = context_.spread.parent[v]) {
-            over.push_back(context_.inner[v]);
-            if (context_.spread.parent[v] == v) break;
-        }
-        way.insert(way.end(), over.rbegin(), over.rend());
+    bool is_way(std::span<const Vec3> path, std::uint64_t sum) const {
+        return handles_.genus == 0 || walks_.sum_of(path) == sum;
     }
 
-    // The mesh joins nothing across a solid's shells (a ball with a cavity); the nearest clusters
-    // that see each other do.
-    void bridge_shells(DisjointSets& sets, ClusterNetwork& out) const {
-        const std::vector<Vec3>& centers = context_.clusters.centers;
-        std::vector<Connection> bridges;
-        for (std::uint32_t a = 0; a < centers.size(); ++a) {
-            if (sets.find(a) == sets.find(0)) continue;
-            for (std::uint32_t b = 0; b < centers.size(); ++b) {
-                if (sets.find(b) == sets.find(a) || (b < a && sets.find(b) != sets.find(0)))
-                    continue;
-                bridges.push_back({std::min(a, b),
-                                   std::max(a, b),
-                                   0,
-                                   0,
-                                   {centers[std::min(a, b)], centers[std::max(a, b)]},
-                                   glm::distance(centers[a], centers[b]),
-                                   true});
+    bool tighten(Connection& c) const {
+        c.path = pull_tight(c.path, context_.query, handles_);
+        return is_free(c.path, context_.query);
+    }
+
+    static std::vector<Vec3> joined(std::vector<Vec3> way, const std::vector<Vec3>& back) {
+        way.insert(way.end(), back.rbegin(), back.rend());
+        return way;
+    }
+
+    // The class of the walk from centre to centre.
+    Class class_of(const Candidate& candidate) const {
+        Class cls = walks_.class_to(candidate.connection.vertex_a);
+        handles_.add_edge(cls, candidate.edge,
+                          candidate.connection.vertex_a < candidate.connection.vertex_b);
+        add_to(cls, walks_.class_to(candidate.connection.vertex_b), -1);
+        return cls;
+    }
+
+    // Candidates that may be in the tree, best first.
+    std::vector<std::uint32_t> order() const {
+        std::vector<std::uint32_t> out(candidates_.size());
+        std::iota(out.begin(), out.end(), 0u);
+        std::vector<bool> is_cut;
+        for (const Candidate& candidate : candidates_)
+            is_cut.push_back(goes_through_cut(candidate.connection.path));
+        std::stable_sort(out.begin(), out.end(), [&](auto l, auto r) {
+            const Connection& a = candidates_[l].connection;
+            const Connection& b = candidates_[r].connection;
+            return std::tuple(!a.is_inside, bool(is_cut[l]), a.length) <
+                   std::tuple(!b.is_inside, bool(is_cut[r]), b.length);
+        });
+        return out;
+    }
+
+    // Whether a path comes as near the middle of a cut handle as its loop at most is.
+    bool goes_through_cut(std::span<const Vec3> path) const {
+        for (const SmallHandle& handle : handles_.ignored) {
+            if (!handle.is_cut) continue;
+            const auto reach = static_cast<float>(0.5 * std::numbers::pi * handle.radius);
+            for (std::size_t i = 1; i < path.size(); ++i) {
+                if (distance_to(path[i - 1], path[i], handle.position) < reach) return true;
             }
         }
-        std::stable_sort(
-            bridges.begin(), bridges.end(),
-            [](const Connection& l, const Connection& r) { return l.length < r.length; });
-        for (const Connection& bridge : bridges) {
-            if (sets.find(bridge.a) == sets.find(bridge.b) || !is_free(bridge.path, context_.query))
-                continue;
-            sets.unite(bridge.a, bridge.b);
-            out.spanning.push_back(static_cast<std::uint32_t>(out.connections.size()));
-            out.connections.push_back(bridge);
-        }
+        return false;
     }
 
-    struct Cycle {
-        std::uint32_t candidate;
-        float length;
-        Class cls;
-    };
-
-    // Distance and class from the root of its tree to every cluster.
     void walk_tree() {
-        const std::size_t count = tree_.size();
-        parent_.assign(count, kNone);
-        depth_.assign(count, 0);
-        reach_.assign(count, 0.0f);
-        potential_.assign(count, Class(genus_, 0));
-        for (std::uint32_t root = 0; root < count; ++root) {
-            if (parent_[root] != kNone) continue;
-            parent_[root] = root;
+        places_.assign(tree_.size(), {});
+        for (std::uint32_t root = 0; root < tree_.size(); ++root) {
+            if (places_[root].parent != kNone) continue;
+            places_[root].parent = root;
+            places_[root].cls = handles_.zero();
             std::vector<std::uint32_t> queue{root};
             for (std::size_t i = 0; i < queue.size(); ++i) {
-                const std::uint32_t c = queue[i];
-                for (const TreeLink& link : tree_[c]) {
-                    if (parent_[link.cluster] != kNone) continue;
-                    parent_[link.cluster] = c;
-                    depth_[link.cluster] = depth_[c] + 1;
-                    reach_[link.cluster] =
-                        reach_[c] + candidates_[link.candidate].connection.length;
-                    potential_[link.cluster] = potential_[c];
-                    add_to(potential_[link.cluster], candidates_[link.candidate].cls, link.sign);
+                const Place& here = places_[queue[i]];
+                for (const TreeLink& link : tree_[queue[i]]) {
+                    if (places_[link.cluster].parent != kNone) continue;
+                    const Candidate& by = candidates_[link.candidate];
+                    Place& next = places_[link.cluster];
+                    next = {queue[i], here.depth + 1, here.reach + by.connection.length,
+                            link.sign > 0 ? here.sum + by.sum : here.sum - by.sum, here.cls};
+                    add_to(next.cls, class_of(by), link.sign);
                     queue.push_back(link.cluster);
                 }
             }
@@ -303,69 +198,74 @@ class Network {
 
     std::uint32_t meeting(std::uint32_t a, std::uint32_t b) const {
         while (a != b) {
-            if (depth_[a] < depth_[b]) std::swap(a, b);
-            a = parent_[a];
+            if (places_[a].depth < places_[b].depth) std::swap(a, b);
+            a = places_[a].parent;
         }
         return a;
     }
 
-    bool add_cycles(const std::vector<std::uint32_t>& others,
-                    std::vector<std::uint32_t>& spanning) {
-        walk_tree();
+    // Of each class the shortest, shortest first.
+    std::vector<Cycle> find_cycles(const std::vector<std::uint32_t>& others) const {
         std::vector<Cycle> cycles;
         for (const std::uint32_t i : others) {
             const Connection& c = candidates_[i].connection;
-            if (!c.is_inside) continue;
-            Class cls = candidates_[i].cls;
-            add_to(cls, potential_[c.a], 1);
-            add_to(cls, potential_[c.b], -1);
-            if (std::all_of(cls.begin(), cls.end(), [](std::int64_t k) { return k == 0; }))
-                continue;
-            const float length =
-                c.length + reach_[c.a] + reach_[c.b] - 2.0f * reach_[meeting(c.a, c.b)];
-            cycles.push_back({i, length, std::move(cls)});
+            const std::uint64_t sum = candidates_[i].sum + places_[c.a].sum - places_[c.b].sum;
+            if (!c.is_inside || sum == 0) continue;
+            const float length = c.length + places_[c.a].reach + places_[c.b].reach -
+                                 2.0f * places_[meeting(c.a, c.b)].reach;
+            cycles.push_back({i, length, std::min(sum, 0 - sum)});
         }
         std::stable_sort(cycles.begin(), cycles.end(),
                          [](const Cycle& l, const Cycle& r) { return l.length < r.length; });
-        std::vector<Class> accepted;
-        for (const Cycle& cycle : cycles) {
-            if (accepted.size() == genus_) break;
-            accepted.push_back(cycle.cls);
-            if (is_primitive(accepted)) {
-                spanning.push_back(cycle.candidate);
-            } else {
-                accepted.pop_back();
-            }
+        std::set<std::uint64_t> known;
+        std::erase_if(cycles, [&](const Cycle& cycle) { return !known.insert(cycle.sum).second; });
+        return cycles;
+    }
+
+    bool add_cycles(const std::vector<std::uint32_t>& others,
+                    std::vector<std::uint32_t>& spanning) {
+        if (handles_.cycles() == 0) return true;
+        walk_tree();
+        CycleBasis basis(handles_);
+        for (const Cycle& cycle : find_cycles(others)) {
+            if (basis.is_complete()) break;
+            const Candidate& candidate = candidates_[cycle.candidate];
+            Class cls = class_of(candidate);
+            add_to(cls, places_[candidate.connection.a].cls, 1);
+            add_to(cls, places_[candidate.connection.b].cls, -1);
+            if (basis.extend(cls)) spanning.push_back(cycle.candidate);
         }
-        return accepted.size() == genus_;
+        return basis.is_complete();
     }
 
     const ClusterContext& context_;
-    const std::optional<HandleClasses>& handles_;
-    std::size_t genus_;
-    VertexGraph graph_;
-    std::vector<Class> from_root_;
+    const HandleClasses& handles_;
+    SurfaceWalks walks_;
     std::vector<Candidate> candidates_;
     std::vector<std::vector<TreeLink>> tree_;
-    std::vector<std::uint32_t> parent_;
-    std::vector<std::uint32_t> depth_;
-    std::vector<float> reach_;
-    std::vector<Class> potential_;
+    std::vector<Place> places_;
 };
 
 }  // namespace
 
-ClusterNetwork connect_network(const ClusterContext& context,
-                               const std::optional<HandleClasses>& handles) {
-    return Network(context, handles).choose();
+ClusterNetwork connect_network(const ClusterContext& context, const HandleClasses& handles) {
+    return Connector(context, handles).run();
 }
 
-std::vector<Vec3> pull_tight(const std::vector<Vec3>& path, const SurfaceQuery& query) {
+std::vector<Vec3> pull_tight(const std::vector<Vec3>& path, const SurfaceQuery& query,
+                             const HandleClasses& handles) {
+    std::vector<std::uint64_t> sums{0};
+    for (std::size_t i = 1; i < path.size(); ++i)
+        sums.push_back(sums.back() + handles.segment_sum(path[i - 1], path[i]));
+    const auto can_skip = [&](std::size_t from, std::size_t to) {
+        return !query.first_hit(path[from], path[to]) &&
+               handles.segment_sum(path[from], path[to]) == sums[to] - sums[from];
+    };
     std::vector<Vec3> out{path.front()};
     std::size_t at = 0;
     while (at + 1 < path.size()) {
         std::size_t next = path.size() - 1;
-        while (next > at + 1 && query.first_hit(path[at], path[next])) --next;
+        while (next > at + 1 && !can_skip(at, next)) --next;
         out.push_back(path[next]);
         at = next;
     }

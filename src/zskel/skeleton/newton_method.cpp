@@ -24,6 +24,35 @@ void center_on_members(Clusters& clusters, std::span<const Vec3> ends) {
     for (std::size_t c = 0; c < best.size(); ++c) clusters.centers[c] = ends[best[c]];
 }
 
+HandleClasses handles_of(const Surface& surface, const std::vector<Vec3>& inner, bool is_closed,
+                         const NewtonMethodOptions& options, std::vector<std::string>& warnings) {
+    if (!is_closed) return {};
+    std::string why;
+    const double min_radius = options.min_handle_model * surface.world_from_model.scale;
+    std::optional<HandleClasses> handles = find_handles(surface, inner, min_radius, why);
+    if (handles) return std::move(*handles);
+    warnings.push_back(fmt::format(
+        "the skeleton of a part is left without cycles, since they are not known: {}", why));
+    return {};
+}
+
+// Halves the ranges in clusters that go round a handle all by themselves; false when none can be
+// split.
+bool split_rings(const ClusterNetwork& network, const Clusters& clusters,
+                 std::vector<float>& ranges) {
+    std::vector<std::uint32_t> sizes(clusters.centers.size(), 0);
+    for (const std::uint32_t c : clusters.of_point) ++sizes[c];
+    std::vector<bool> is_split(sizes.size(), false);
+    for (const std::uint32_t i : network.spanning) {
+        const Connection& c = network.connections[i];
+        if (c.a == c.b && sizes[c.a] > 1) is_split[c.a] = true;
+    }
+    for (std::size_t s = 0; s < ranges.size(); ++s) {
+        if (is_split[clusters.of_point[s]]) ranges[s] *= 0.5f;
+    }
+    return std::find(is_split.begin(), is_split.end(), true) != is_split.end();
+}
+
 // Numbers the nodes that are left, and turns links into edges.
 void flatten(const CurveGraph& graph, const SeedSpread& spread, SolidSkeleton& out) {
     std::vector<std::uint32_t> number(graph.nodes.size(), kNone);
@@ -64,15 +93,9 @@ SolidSkeleton extract_by_newton(const Surface& surface, bool is_closed, Visibili
     for (const SettledSeed& seed : out.settled) ends.push_back(seed.position);
 
     progress.begin("handles");
-    std::optional<HandleClasses> handles;
-    if (is_closed) {
-        std::string why;
-        handles = find_handles(surface, inner, why);
-        if (!handles)
-            out.warnings.push_back(
-                fmt::format("cycles cannot be told from wrong connections: {}", why));
-    }
-    out.expected_cycles = handles ? handles->genus : 0;
+    const HandleClasses handles = handles_of(surface, inner, is_closed, options, out.warnings);
+    out.expected_cycles = handles.cycles();
+    out.ignored_handles = handles.ignored;
 
     progress.begin("connect");
     // Pairs of seeds whose patches meet.
@@ -97,12 +120,9 @@ SolidSkeleton extract_by_newton(const Surface& surface, bool is_closed, Visibili
         const ClusterContext context{surface, query, spread,    out.settled,
                                      inner,   links, shortcuts, clusters};
         const ClusterNetwork network = connect_network(context, handles);
-        if (!network.has_all_cycles && attempt < options.max_retries) {
-            for (float& range : ranges) range *= 0.5f;
-            continue;
-        }
+        if (attempt < options.max_retries && split_rings(network, clusters, ranges)) continue;
         if (!network.has_all_cycles)
-            out.warnings.emplace_back("a handle is smaller than the clusters: a cycle is missing");
+            out.warnings.emplace_back("a cycle is missing: no way for it was found inside");
         const Limbs limbs = grow_limbs(context, network, options.limbs);
         const auto unfree =
             std::count_if(limbs.connections.begin(), limbs.connections.end(),

@@ -35,7 +35,10 @@ class Spreader {
             if (distance > distance_[v] || out_.seed_of[v] != seed) continue;
             for (const VertexGraph::Link& link : graph_.of(v)) {
                 const float along = distance + length(v, link.vertex);
-                if (along >= distance_[link.vertex]) continue;
+                // What hangs on a vertex goes with it, even where rounding makes the ways equal.
+                const bool is_child = out_.parent[link.vertex] == v;
+                const float known = distance_[link.vertex];
+                if (along > known || (along == known && !is_child)) continue;
                 reach(link.vertex, along, seed, v);
                 front.emplace(along, link.vertex);
             }
