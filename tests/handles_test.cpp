@@ -50,7 +50,7 @@ bool has_warning(const ExtractResult& result, std::string_view part) {
 
 ExtractOptions few_seeds(int seeds) {
     ExtractOptions options;
-    options.newton.spread.max_seeds = seeds;
+    options.newton.spread.min_seeds = options.newton.spread.max_seeds = seeds;
     return options;
 }
 

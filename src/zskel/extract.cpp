@@ -64,6 +64,7 @@ SolidSkeleton extract_solid(const Solid& solid, const ExtractOptions& options, B
         options.method == Method::Paper
             ? extract_by_paper(solid.surface, *source, options.paper, progress)
             : extract_by_newton(solid.surface, solid.is_closed, *source, options.newton, progress);
+    stages.begin("check");
     if (solid.is_closed)
         skeleton.volumes = node_volumes(solid.surface, skeleton.vertex_node, skeleton.nodes);
     return skeleton;
@@ -108,7 +109,12 @@ class Assembler {
                                                to_world.to_model(handle.position), handle.is_cut,
                                                number});
         }
+        checker_.add(solid, part);
         ExtractStatistics& sums = result_.statistics;
+        if (part.seed_spacing_thickness >= sums.seed_spacing_thickness) {
+            sums.seed_spacing_thickness = part.seed_spacing_thickness;
+            sums.seed_end = part.seed_end;
+        }
         sums.cavities += solid.cavity_count;
         sums.forest_edges += part.forest_edges;
         sums.seeds += part.seeds.size();
@@ -118,6 +124,11 @@ class Assembler {
         sums.refine.merged_junctions += part.refine.merged_junctions;
         sums.refine.extended_ends += part.refine.extended_ends;
         result_.warnings.insert(result_.warnings.end(), part.warnings.begin(), part.warnings.end());
+    }
+
+    // What was found, beside what should have been.
+    void finish_check() {
+        result_.check = checker_.finish(result_.graph, result_.surface.world_from_model);
     }
 
     void map_vertices(const PreparedSurface& prepared) {
@@ -144,6 +155,7 @@ class Assembler {
     }
 
     ExtractResult& result_;
+    SkeletonChecker checker_;
     std::vector<std::uint32_t> surface_node_;
     std::vector<std::uint32_t> input_vertex_;  // the lowest at each place
 };
@@ -191,6 +203,8 @@ void add_warnings(const Mesh& mesh, const std::vector<Solid>& solids, const Extr
                                                   result.seeds.size(), name_of(state)));
         }
     }
+    for (const std::string& failure : result.check.failures)
+        result.warnings.push_back("self-check: " + failure);
     for (const std::string& warning : result.warnings) log_warning("{}: {}", mesh.name, warning);
 }
 
@@ -228,8 +242,9 @@ ExtractResult extract_skeleton(const Mesh& mesh, const ExtractOptions& options, 
         assembler.add(s, solids[s], part);
     }
     assembler.map_vertices(prepared);
-    stages.end();
     result.surface = std::move(prepared.surface);
+    assembler.finish_check();
+    stages.end();
     add_warnings(mesh, solids, options, result);
     return result;
 }

@@ -8,6 +8,7 @@
 #include "zskel/core/error.h"
 #include "zskel/mesh/mesh.h"
 #include "zskel/mesh/surface.h"
+#include "zskel/self_check.h"
 #include "zskel/skeleton/graph.h"
 #include "zskel/skeleton/method.h"
 #include "zskel/visibility/backend.h"
@@ -69,6 +70,8 @@ struct ExtractStatistics {
     std::size_t solids = 0;
     std::size_t cavities = 0;
     std::size_t seeds = 0;
+    double seed_spacing_thickness = 0.0;          ///< the widest of the solids'; see SeedSpread
+    SpreadEnd seed_end = SpreadEnd::EveryVertex;  ///< of that solid
     std::size_t evaluations = 0;
     std::size_t expected_cycles =
         0;                  ///< handles of the closed solids, but those ignored; newton only
@@ -86,6 +89,7 @@ struct ExtractResult {
     std::vector<SeedReport> seeds;
     std::vector<IgnoredHandle> ignored_handles;  ///< of each solid the smallest first
     ExtractStatistics statistics;
+    SelfCheck check;
     std::vector<Repair> repairs;
     std::vector<std::string> warnings;
     Surface surface;  ///< what was worked on: all solids, world space

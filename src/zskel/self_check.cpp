@@ -1,5 +1,7 @@
 #include "zskel/self_check.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
@@ -11,6 +13,7 @@ namespace zskel {
 namespace {
 
 constexpr int kPlaces = 64;
+constexpr double kLeastInside = 0.9999;  // a share below this fails
 
 bool is_inside(const SurfaceQuery& query, const Vec3& point) {
     return std::abs(query.winding_number(point)) > 0.5;
@@ -42,7 +45,11 @@ std::vector<bool> nodes_inside(const SurfaceQuery& query, const SolidSkeleton& s
 
 }  // namespace
 
-InsideCheck check_inside(const Solid& solid, const SolidSkeleton& skeleton) {
+void SkeletonChecker::add(const Solid& solid, const SolidSkeleton& skeleton) {
+    ++solids_;
+    closed_ += solid.is_closed ? 1 : 0;
+    knows_cycles_ = knows_cycles_ && skeleton.knows_cycles;
+    expected_cycles_ += skeleton.expected_cycles;
     const SurfaceQuery query(solid.surface);
     std::vector<bool> is_free;
     for (const glm::uvec2& edge : skeleton.edges)
@@ -50,24 +57,44 @@ InsideCheck check_inside(const Solid& solid, const SolidSkeleton& skeleton) {
     const std::vector<bool> inside = solid.is_closed
                                          ? nodes_inside(query, skeleton, is_free)
                                          : std::vector<bool>(skeleton.nodes.size(), true);
-    InsideCheck check;
-    check.least_clearance = std::numeric_limits<double>::infinity();
     const auto look_at = [&](const Vec3& point, bool is_in) {
         const auto distance = static_cast<double>(query.nearest(point).distance);
-        check.least_clearance = std::min(check.least_clearance, is_in ? distance : -distance);
+        least_clearance_ = std::min(least_clearance_, is_in ? distance : -distance);
     };
     for (std::size_t n = 0; n < skeleton.nodes.size(); ++n) look_at(skeleton.nodes[n], inside[n]);
     for (std::size_t e = 0; e < skeleton.edges.size(); ++e) {
         const Vec3& a = skeleton.nodes[skeleton.edges[e].x];
         const Vec3& b = skeleton.nodes[skeleton.edges[e].y];
-        const auto length = static_cast<double>(glm::distance(a, b));
         const bool is_whole = is_free[e] || !solid.is_closed;
         const double share =
             is_whole ? (inside[skeleton.edges[e].x] ? 1.0 : 0.0) : share_inside(query, a, b);
-        check.length += length;
-        check.inside += length * share;
         look_at(0.5f * (a + b), share > 0.5);
+        if (!solid.is_closed) continue;
+        const auto length = static_cast<double>(glm::distance(a, b));
+        length_ += length;
+        inside_ += length * share;
     }
+}
+
+SelfCheck SkeletonChecker::finish(const SkeletonGraph& graph,
+                                  const Similarity& world_from_model) const {
+    const GraphTopology topology = graph_topology(graph);
+    SelfCheck check;
+    check.components = topology.components;
+    check.expected_components = solids_;
+    check.cycles = topology.cycles;
+    if (knows_cycles_) check.expected_cycles = expected_cycles_;
+    if (closed_ > 0) check.share_inside = length_ > 0.0 ? inside_ / length_ : 1.0;
+    check.least_clearance = world_from_model.length_to_model(least_clearance_);
+    if (check.components != check.expected_components)
+        check.failures.push_back(fmt::format("{} components for {} solids", check.components,
+                                             check.expected_components));
+    if (check.expected_cycles && check.cycles != *check.expected_cycles)
+        check.failures.push_back(
+            fmt::format("{} cycles for {} handles", check.cycles, *check.expected_cycles));
+    if (check.share_inside && *check.share_inside < kLeastInside)
+        check.failures.push_back(
+            fmt::format("{:.4f} of the length is inside", *check.share_inside));
     return check;
 }
 

@@ -1,12 +1,13 @@
 #pragma once
 
 #include <cstddef>
+#include <limits>
 #include <optional>
-#include <span>
 #include <string>
 #include <vector>
 
 #include "zskel/mesh/solid.h"
+#include "zskel/skeleton/graph.h"
 #include "zskel/skeleton/method.h"
 
 namespace zskel {
@@ -25,16 +26,24 @@ struct SelfCheck {
     std::vector<std::string> failures;  ///< what is not as expected, in words; empty: sound
 };
 
-/// How much of a solid's skeleton lies inside, and how near to the surface it comes.
-struct InsideCheck {
-    double length = 0.0;  ///< world units
-    double inside = 0.0;
-    double least_clearance = 0.0;
-};
+/// Gathers the checks of a skeleton's solids. Edges that meet no triangle lie on one side as a
+/// whole, by the winding number about one point of each chain of them; the others are looked at in
+/// 64 places each.
+class SkeletonChecker {
+  public:
+    void add(const Solid& solid, const SolidSkeleton& skeleton);
 
-/// Edges that meet no triangle lie on one side as a whole, by the winding number about one point of
-/// each chain of them; the others are looked at in 64 places each. On an open solid all counts as
-/// inside.
-InsideCheck check_inside(const Solid& solid, const SolidSkeleton& skeleton);
+    /// @param graph  of all solids.
+    SelfCheck finish(const SkeletonGraph& graph, const Similarity& world_from_model) const;
+
+  private:
+    std::size_t solids_ = 0;
+    std::size_t closed_ = 0;
+    std::size_t expected_cycles_ = 0;
+    bool knows_cycles_ = true;
+    double length_ = 0.0;  // world units, of closed solids
+    double inside_ = 0.0;
+    double least_clearance_ = std::numeric_limits<double>::infinity();
+};
 
 }  // namespace zskel

@@ -24,6 +24,7 @@ struct Arguments {
     SkeletonOutput output;
     std::string correspondence;
     bool stats = false;
+    bool strict = false;
     std::string picture;
     std::string picture_paths;
     PictureOptions picture_options;
@@ -36,9 +37,9 @@ struct Arguments {
     std::vector<CLI::Option*> paper_only;
 };
 
-int parse_seeds(const std::string& text) {
-    if (text == "all") return 0;
-    int value = 0;
+std::size_t parse_seeds(const std::string& text) {
+    if (text == "all") return std::numeric_limits<std::size_t>::max();
+    std::size_t value = 0;
     const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
     if (error != std::errc() || end != text.data() + text.size() || value < 1) {
         throw UsageError(fmt::format("--seeds {}: give a number from 1, or all", text));
@@ -161,7 +162,7 @@ ExitCode extract(const Arguments& given, const Common& common) {
              result.graph.nodes.size(), result.graph.edges.size(), result.statistics.evaluations,
              result.statistics.seeds, result.statistics.seconds(), backend->info().name);
     if (arguments.stats) std::fputs(stats_text(arguments.model, result).c_str(), stderr);
-    return ExitCode::Ok;
+    return arguments.strict && !result.check.failures.empty() ? ExitCode::Check : ExitCode::Ok;
 }
 
 // Options that only one method has; given with another they would mean nothing, which is an error.
@@ -174,8 +175,11 @@ void add_method_options(CLI::App& command, Arguments& arguments) {
         command
             .add_option_function<std::string>(
                 "--seeds",
-                [&newton](const std::string& text) { newton.spread.max_seeds = parse_seeds(text); },
-                "How many seeds are spread over the surface, or all: one a vertex [1000]")
+                [&newton](const std::string& text) {
+                    newton.spread.min_seeds = newton.spread.max_seeds = parse_seeds(text);
+                },
+                "How many seeds are spread over the surface, or all: one a vertex [from 1000, as "
+                "many as the thinnest limb needs]")
             ->type_name("N|all")
             ->group(kNewton),
         command
@@ -260,6 +264,9 @@ void add_extract_command(CLI::App& app, const Common& common, Run& run) {
     command->add_flag("--with-paths", arguments->parts.paths, "Add every seed's path too");
     command->add_flag("--stats", arguments->stats,
                       "Print a row of the paper's Table 1 to standard error");
+    command->add_flag("--strict", arguments->strict,
+                      "Exit with 6 when the skeleton fails its self-check (components, cycles, "
+                      "inside); it is written all the same");
     command->add_option("--picture", arguments->picture,
                         "Draw the skeleton in the translucent model (PNG)");
     command->add_option("--picture-paths", arguments->picture_paths,

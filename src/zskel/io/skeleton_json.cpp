@@ -110,9 +110,27 @@ Json statistics_json(const ExtractResult& result) {
             {"merged_junctions", s.refine.merged_junctions},
             {"extended_ends", s.refine.extended_ends},
             {"seeds", s.seeds},
+            {"seed_spacing_thickness", s.seed_spacing_thickness},
+            {"seeds_ended_by", name_of(s.seed_end)},
             {"seed_states", states},
             {"evaluations", s.evaluations},
             {"seconds", seconds}};
+}
+
+// What was not looked for is null.
+Json self_check_json(const SelfCheck& check) {
+    Json cycles;
+    if (check.expected_cycles) cycles = *check.expected_cycles;
+    Json inside;
+    if (check.share_inside) inside = *check.share_inside;
+    return {{"is_sound", check.failures.empty()},
+            {"components", check.components},
+            {"expected_components", check.expected_components},
+            {"cycles", check.cycles},
+            {"expected_cycles", cycles},
+            {"share_inside", inside},
+            {"least_clearance", check.least_clearance},
+            {"failures", check.failures}};
 }
 
 Json options_json(const Provenance& provenance) {
@@ -131,6 +149,7 @@ Json options_json(const Provenance& provenance) {
     } else {
         out.update({{"offset_world", o.newton.seeds.offset_world},
                     {"max_offset_thickness", o.newton.seeds.max_offset_thickness},
+                    {"min_seeds", o.newton.spread.min_seeds},
                     {"max_seeds", o.newton.spread.max_seeds},
                     {"spacing_thickness", o.newton.spread.spacing_thickness},
                     {"max_steps", o.newton.steps.max_steps},
@@ -216,6 +235,7 @@ std::string skeleton_json(const ExtractResult& result, const Provenance& provena
     Members members = graph_members(result.graph);
     members.emplace_back("ignored_handles", rows(handles_json(result)));
     members.emplace_back("statistics", text(statistics_json(result)));
+    members.emplace_back("self_check", text(self_check_json(result.check)));
     members.emplace_back("warnings", rows(Json(result.warnings)));
     members.emplace_back("provenance",
                          text(provenance_json(provenance, result.surface.world_from_model)));

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <array>
 #include <functional>
+#include <numeric>
 #include <queue>
-#include <ranges>
 #include <utility>
 
 #include "zskel/skeleton/coverage.h"
@@ -27,8 +27,13 @@ struct Arc {
 };
 using Arcs = std::vector<std::vector<Arc>>;
 
-template <typename Numbers>
-Arcs arcs_of(std::span<const Connection> connections, const Numbers& numbers,
+std::vector<std::uint32_t> all_of(std::span<const Connection> connections) {
+    std::vector<std::uint32_t> numbers(connections.size());
+    std::iota(numbers.begin(), numbers.end(), 0u);
+    return numbers;
+}
+
+Arcs arcs_of(std::span<const Connection> connections, std::span<const std::uint32_t> numbers,
              std::size_t clusters) {
     Arcs arcs(clusters);
     for (const std::uint32_t i : numbers) {
@@ -90,7 +95,7 @@ class LimbGrower {
           centers_(context.clusters.centers),
           girths_(girths_at(context.query, context.clusters.centers)),
           options_(options),
-          arcs_(arcs_of(connections_, std::views::iota(0u, connections_.size()), girths_.size())),
+          arcs_(arcs_of(connections_, all_of(connections_), girths_.size())),
           ways_(girths_.size()),
           coverage_(seed_coverage(context)),
           is_tried_(context.spread.vertices.size(), false) {}

@@ -27,7 +27,10 @@ struct SolidSkeleton {
     std::vector<SettledSeed> settled;  ///< of every seed
     std::size_t forest_edges = 0;      ///< edges left when every cycle is opened at its longest
     std::size_t expected_cycles = 0;   ///< handles but those ignored; 0 where they are not known
+    bool knows_cycles = false;         ///< whether handles were looked for and found out about
     std::vector<SmallHandle> ignored_handles;
+    double seed_spacing_thickness = 0.0;  ///< see SeedSpread; newton only
+    SpreadEnd seed_end = SpreadEnd::EveryVertex;
     std::size_t limbs = 0;  ///< that grew from the cycles or the thickest node
     std::size_t rejected_limbs = 0;
     RefineReport refine;

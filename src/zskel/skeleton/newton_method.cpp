@@ -6,6 +6,7 @@
 #include "zskel/skeleton/connect.h"
 #include "zskel/skeleton/method.h"
 #include "zskel/skeleton/network.h"
+#include "zskel/skeleton/patches.h"
 #include "zskel/visibility/surface_query.h"
 
 namespace zskel {
@@ -25,13 +26,14 @@ void center_on_members(Clusters& clusters, std::span<const Vec3> ends) {
 }
 
 HandleClasses handles_of(const Surface& surface, const std::vector<Vec3>& inner, bool is_closed,
-                         const NewtonMethodOptions& options, std::vector<std::string>& warnings) {
+                         const NewtonMethodOptions& options, SolidSkeleton& out) {
     if (!is_closed) return {};
     std::string why;
     const double min_radius = options.min_handle_model * surface.world_from_model.scale;
     std::optional<HandleClasses> handles = find_handles(surface, inner, min_radius, why);
+    out.knows_cycles = handles.has_value();
     if (handles) return std::move(*handles);
-    warnings.push_back(fmt::format(
+    out.warnings.push_back(fmt::format(
         "the skeleton of a part is left without cycles, since they are not known: {}", why));
     return {};
 }
@@ -53,8 +55,9 @@ bool split_rings(const ClusterNetwork& network, const Clusters& clusters,
     return std::find(is_split.begin(), is_split.end(), true) != is_split.end();
 }
 
-// Numbers the nodes that are left, and turns links into edges.
-void flatten(const CurveGraph& graph, const SeedSpread& spread, SolidSkeleton& out) {
+// Numbers the nodes that are left, turns links into edges, and shares the vertices out.
+void flatten(const CurveGraph& graph, const Surface& surface, const SeedSpread& spread,
+             SolidSkeleton& out) {
     std::vector<std::uint32_t> number(graph.nodes.size(), kNone);
     std::vector<std::uint32_t> seed_node(spread.vertices.size(), kNone);
     for (std::uint32_t n = 0; n < graph.nodes.size(); ++n) {
@@ -65,7 +68,6 @@ void flatten(const CurveGraph& graph, const SeedSpread& spread, SolidSkeleton& o
         out.radii.push_back(node.radius);
         for (const std::uint32_t s : node.seeds) seed_node[s] = number[n];
     }
-    for (const std::uint32_t seed : spread.seed_of) out.vertex_node.push_back(seed_node[seed]);
     for (std::uint32_t n = 0; n < graph.nodes.size(); ++n) {
         if (graph.nodes[n].is_removed) continue;
         for (const std::uint32_t other : graph.nodes[n].links) {
@@ -73,6 +75,14 @@ void flatten(const CurveGraph& graph, const SeedSpread& spread, SolidSkeleton& o
         }
     }
     std::sort(out.edges.begin(), out.edges.end(), edge_before);
+    NodeLinks links(out.nodes.size());
+    for (const glm::uvec2& edge : out.edges) {
+        links[edge.x].push_back(edge.y);
+        links[edge.y].push_back(edge.x);
+    }
+    std::vector<std::uint32_t> near;
+    for (const std::uint32_t seed : spread.seed_of) near.push_back(seed_node[seed]);
+    out.vertex_node = assign_patches(surface, out.nodes, links, near);
 }
 
 }  // namespace
@@ -87,13 +97,15 @@ SolidSkeleton extract_by_newton(const Surface& surface, bool is_closed, Visibili
     const std::vector<Vec3> inner = inner_points(surface, thickness, options.seeds);
     const SeedSpread spread = spread_seeds(surface, thickness, options.spread);
     for (const std::uint32_t v : spread.vertices) out.seeds.push_back({inner[v], v});
+    out.seed_spacing_thickness = spread.spacing_thickness;
+    out.seed_end = spread.end;
     progress.begin("settle");
     out.settled = settle_seeds_newton(source, out.seeds, options.steps, progress.report);
     std::vector<Vec3> ends;
     for (const SettledSeed& seed : out.settled) ends.push_back(seed.position);
 
     progress.begin("handles");
-    const HandleClasses handles = handles_of(surface, inner, is_closed, options, out.warnings);
+    const HandleClasses handles = handles_of(surface, inner, is_closed, options, out);
     out.expected_cycles = handles.cycles();
     out.ignored_handles = handles.ignored;
 
@@ -136,7 +148,7 @@ SolidSkeleton extract_by_newton(const Surface& surface, bool is_closed, Visibili
     }
     progress.begin("refine");
     out.refine = refine_graph(graph, seed_points, query, options.refine);
-    flatten(graph, spread, out);
+    flatten(graph, surface, spread, out);
     out.forest_edges = out.nodes.size() - 1;
     return out;
 }

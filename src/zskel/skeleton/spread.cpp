@@ -85,26 +85,41 @@ class Spreader {
 
 }  // namespace
 
+std::string_view name_of(SpreadEnd end) {
+    switch (end) {
+        case SpreadEnd::Spacing:
+            return "spacing";
+        case SpreadEnd::EveryVertex:
+            return "every_vertex";
+        case SpreadEnd::Limit:
+            return "limit";
+    }
+    return "";
+}
+
 SeedSpread spread_seeds(const Surface& surface, std::span<const float> thickness,
                         const SpreadOptions& options) {
     Spreader spreader(surface, thickness);
     const std::size_t vertices = surface.positions.size();
-    const std::size_t most = options.max_seeds <= 0
-                                 ? vertices
-                                 : std::min(vertices, static_cast<std::size_t>(options.max_seeds));
+    const std::size_t least = std::min(options.min_seeds, options.max_seeds);
     std::uint32_t next = 0;
     std::size_t count = 0;
     // Parts that no front has reached come first, whatever the limit: their distance is infinite.
     for (; count < vertices; ++count) {
         const float left = spreader.distance(next);
         if (left == 0.0f) break;
-        const bool enough = count >= most || static_cast<double>(left) <= options.spacing_thickness;
+        const bool is_near = static_cast<double>(left) <= options.spacing_thickness;
+        const bool enough = count >= options.max_seeds || (count >= least && is_near);
         if (enough && left < kInfinity) break;
         spreader.add(next);
         next = spreader.farthest();
     }
     SeedSpread spread = spreader.take();
     spread.spacing_thickness = static_cast<double>(spreader.distance(next));
+    if (spread.spacing_thickness == 0.0)
+        spread.end = SpreadEnd::EveryVertex;
+    else if (spread.spacing_thickness > options.spacing_thickness || options.max_seeds == least)
+        spread.end = SpreadEnd::Limit;
     return spread;
 }
 

@@ -2,11 +2,20 @@
 
 #include <cstdint>
 #include <span>
+#include <string_view>
 #include <vector>
 
 #include "zskel/mesh/surface.h"
 
 namespace zskel {
+
+/// Why no more seeds were spread.
+enum class SpreadEnd : std::uint8_t {
+    Spacing,      ///< they are near enough together for the thinnest limb
+    EveryVertex,  ///< there is one at every vertex
+    Limit,        ///< there are max_seeds
+};
+std::string_view name_of(SpreadEnd end);
 
 /// Which vertices carry a seed, and which seed every other vertex belongs to.
 struct SeedSpread {
@@ -16,12 +25,14 @@ struct SeedSpread {
         parent;  ///< of every vertex: the next one on its way to its seed; itself at one
     double spacing_thickness =
         0.0;  ///< what is left: the largest distance to a seed over the thickness there
+    SpreadEnd end = SpreadEnd::Spacing;
 };
 
 struct SpreadOptions {
-    int max_seeds = 1000;            ///< 0: every vertex
-    double spacing_thickness = 0.0;  ///< stop when every vertex is nearer to a seed than this many
-                                     ///< thicknesses; 0: never before max_seeds
+    std::size_t min_seeds = 1000;    ///< so many, or every vertex,
+    std::size_t max_seeds = 20000;   ///< and up to so many
+    double spacing_thickness = 1.0;  ///< until no vertex is farther from a seed than this many of
+                                     ///< the local thicknesses
 };
 
 /// Farthest-point sampling along the surface's edges, distances divided by the thickness there, so
