@@ -109,8 +109,8 @@ TEST_CASE("extract_skeleton: progress is told, and can stop the work") {
         return true;
     };
     extract_by_rays(test::sphere(0.5, 2), options);
-    CHECK(stages ==
-          std::vector<std::string>{"prepare", "backend", "seeds", "settle", "cluster", "connect"});
+    CHECK(stages == std::vector<std::string>{"prepare", "backend", "seeds", "settle", "cluster",
+                                             "connect", "check"});
     options.progress = [](std::string_view stage, double) { return stage != "settle"; };
     CHECK_THROWS_AS(extract_by_rays(test::sphere(0.5, 2), options), Cancelled);
 }
