@@ -12,10 +12,10 @@ namespace zskel {
 /// body at that place.
 struct LimbOptions {
     double detail = 1.0;                 ///< scales all bounds: below 1 more limbs, above 1 fewer
-    double least_world = 0.025;           ///< sticks out at least this far, in the solid's size,
+    double least_world = 0.02;           ///< sticks out at least this far, in the solid's size,
     double least_own_girths = 1.0;       ///< this many of its own girths,
-    double least_junction_girths = 0.3;  ///< and of the body's,
-    double least_product = 0.5;          ///< and so much by the product of the two
+    double least_junction_girths = 0.25;  ///< and of the body's,
+    double least_product = 0.43;          ///< and so much by the product of the two
     double bare_own_girths =
         2.5;                   ///< where no seed came to rest beyond the ball: so many of its own,
     double bare_world = 0.12;  ///< or as far as this
