@@ -84,7 +84,8 @@ SelfCheck SkeletonChecker::finish(const SkeletonGraph& graph,
     check.expected_components = solids_;
     check.cycles = topology.cycles;
     if (knows_cycles_) check.expected_cycles = expected_cycles_;
-    if (closed_ > 0) check.share_inside = length_ > 0.0 ? inside_ / length_ : 1.0;
+    const double without_edges = least_clearance_ < 0.0 ? 0.0 : 1.0;
+    if (closed_ > 0) check.share_inside = length_ > 0.0 ? inside_ / length_ : without_edges;
     check.least_clearance = world_from_model.length_to_model(least_clearance_);
     if (check.components != check.expected_components)
         check.failures.push_back(fmt::format("{} components for {} solids", check.components,

@@ -20,7 +20,8 @@ struct SelfCheck {
     std::optional<std::size_t> expected_cycles;  ///< nothing where handles were not looked for, or
                                                  ///< not all parts are closed
     std::optional<double> share_inside;  ///< of the edges' length in the closed solids; winding
-                                         ///< number not 0. Nothing where none is closed
+                                         ///< number not 0; of a skeleton without edges,
+                                         ///< whether its nodes are. Nothing where none is closed
     double least_clearance = 0.0;  ///< model units: from nodes and middles of edges to the surface;
                                    ///< negative when one of them is outside
     std::vector<std::string> failures;  ///< what is not as expected, in words; empty: sound

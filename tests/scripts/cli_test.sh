@@ -504,6 +504,15 @@ case_check_failed() {
     run 6 compare needle.off --backend brute --against ray --face-px 8 --eyes 8
     run 6 compare needle.off --backend brute --against ray --face-px 8 --eyes 8 --json
     grep -qE '"within_bounds": ?false' out || fail "the JSON does not say so"
+    # A skeleton that fails its self-check is written all the same; --strict says so by the exit code.
+    # The paper's clusters of a whole torus have their centre in its hole.
+    local torus=$models/torus.obj
+    run 0 extract "$torus" --backend ray --face-px 8 --strict -o sound.json
+    run 0 extract "$torus" --backend ray --face-px 4 --method paper --cluster 2 -o loose.json
+    run 6 extract "$torus" --backend ray --face-px 4 --method paper --cluster 2 --strict -o strict.json
+    is_json strict.json
+    grep -q '"is_sound":true' sound.json || fail "a sound skeleton is not called so"
+    grep -q '"is_sound":false' strict.json || fail "a skeleton that leaves the solid is called sound"
 }
 
 case_gl_backends() {
