@@ -101,8 +101,7 @@ struct ExtractResult {
 /// Threads: several extractions may run at once, each with a backend of its own. Meshes and options
 /// are only read and may be shared. Inside, the work is spread over TBB's threads; `progress` is
 /// called on the caller's thread only, so options that are shared must hold one that bears several.
-/// `set_log` and `set_thread_limit` act on the whole process:
-/// call them before the threads start.
+/// `set_log` and `set_thread_limit` act on the whole process: call them before the threads start.
 ///
 /// A GL context that is current on the caller's thread stays so and is not used: a GL backend has
 /// its context on a thread of its own. EGL displays are the process's: a caller must not terminate
