@@ -27,8 +27,8 @@ struct ExtractOptions {
     Method method = Method::Newton;
     NewtonMethodOptions newton;
     PaperMethodOptions paper;
-    /// Told the stage and its share done; false stops the work (`Cancelled` is thrown). May be
-    /// empty.
+    /// Told the stage and its share done, on the caller's thread; false stops the work (`Cancelled`
+    /// is thrown). May be empty.
     std::function<bool(std::string_view stage, double share)> progress;
 };
 
@@ -97,7 +97,17 @@ struct ExtractResult {
 
 /// The whole pipeline: mesh -> surface -> solids -> seeds -> settled seeds -> clusters -> graph ->
 /// refined. Same mesh, options and backend give the same graph, at any number of threads.
-/// @throws InputError for a mesh without area, GlError when the backend fails, Cancelled.
+///
+/// Threads: several extractions may run at once, each with a backend of its own. Meshes and options
+/// are only read and may be shared. Inside, the work is spread over TBB's threads; `progress` is
+/// called on the caller's thread only, so options that are shared must hold one that bears several.
+/// `set_log` and `set_thread_limit` act on the whole process: call them before the threads start.
+///
+/// A GL context that is current on the caller's thread stays so and is not used: a GL backend has
+/// its context on a thread of its own. EGL displays are the process's: a caller must not terminate
+/// one (eglTerminate) that an open backend may use.
+/// @throws InputError for a mesh without area, GlError when the backend fails, Cancelled; whatever
+/// `progress` throws. The backend stays usable after Cancelled, and after what `progress` threw.
 ExtractResult extract_skeleton(const Mesh& mesh, const ExtractOptions& options, Backend& backend);
 
 }  // namespace zskel

@@ -41,7 +41,9 @@ struct BackendInfo {
     bool is_fallback = false;               ///< `auto` found no GL context and took rays
 };
 
-/// An opened backend: prepares one source a solid. Sources must not outlive it.
+/// An opened backend: prepares one source a solid. Sources must not outlive it. One call at a time,
+/// to the backend and its sources together, from whichever thread: GL sources share its buffers.
+/// Threads that work at once open a backend each.
 class Backend {
   public:
     virtual ~Backend() = default;
