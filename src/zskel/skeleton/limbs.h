@@ -11,9 +11,9 @@ namespace zskel {
 /// measured in girths (see `girths_at`): of its own, outside the ball where it begins, and of the
 /// body at that place.
 struct LimbOptions {
-    double detail = 1.0;                 ///< scales all bounds: below 1 more limbs, above 1 fewer
-    double least_world = 0.02;           ///< sticks out at least this far, in the solid's size,
-    double least_own_girths = 1.0;       ///< this many of its own girths,
+    double detail = 1.0;                  ///< scales all bounds: below 1 more limbs, above 1 fewer
+    double least_world = 0.02;            ///< sticks out at least this far, in the solid's size,
+    double least_own_girths = 1.0;        ///< this many of its own girths,
     double least_junction_girths = 0.25;  ///< and of the body's,
     double least_product = 0.43;          ///< and so much by the product of the two
     double bare_own_girths =
