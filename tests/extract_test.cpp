@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
+#include "support/extract.h"
 #include "support/shapes.h"
 #include "zskel/core/parallel.h"
 #include "zskel/io/skeleton_formats.h"
@@ -20,19 +21,11 @@ ExtractOptions paper() {
     return options;
 }
 
-ExtractResult extract_by_rays(const Mesh& mesh, const ExtractOptions& options, int face_px = 8) {
-    BackendOptions backend_options;
-    backend_options.kind = BackendKind::Ray;
-    backend_options.face_px = face_px;
-    const auto backend = open_backend(backend_options);
-    return extract_skeleton(mesh, options, *backend);
-}
-
 }  // namespace
 
 TEST_CASE(
     "extract_skeleton: a cube is one node at its centre, within one step (the paper's Figure 3)") {
-    const ExtractResult result = extract_by_rays(test::cube(), paper(), 16);
+    const ExtractResult result = test::extract(test::cube(), paper(), 16);
     REQUIRE(result.graph.nodes.size() == 1);
     CHECK(glm::length(result.graph.nodes[0].position) <= ExtractOptions{}.paper.steps.step_world);
     CHECK(result.graph.nodes[0].radius == doctest::Approx(0.5).epsilon(0.01));
@@ -42,7 +35,7 @@ TEST_CASE(
 }
 
 TEST_CASE("extract_skeleton: a torus is a ring of nodes along its core") {
-    const ExtractResult result = extract_by_rays(test::torus(), paper());
+    const ExtractResult result = test::extract(test::torus(), paper());
     CHECK(result.graph.nodes.size() > 8);
     for (const SkeletonGraph::Node& node : result.graph.nodes) {
         const double ring = std::hypot(node.position.x, node.position.y);
@@ -55,9 +48,9 @@ TEST_CASE("extract_skeleton: a torus is a ring of nodes along its core") {
 
 TEST_CASE("extract_skeleton: answers in the model's own coordinates") {
     const Mesh here = test::cylinder(0.2, 1.0, 24, 17);
-    const ExtractResult plain = extract_by_rays(here, paper());
+    const ExtractResult plain = test::extract(here, paper());
     // Powers of two, so that the world coordinates are the same to the last bit.
-    const ExtractResult moved = extract_by_rays(test::moved(here, {1024, -512, 64}, 8.0), paper());
+    const ExtractResult moved = test::extract(test::moved(here, {1024, -512, 64}, 8.0), paper());
     REQUIRE(plain.graph.nodes.size() == moved.graph.nodes.size());
     for (std::size_t i = 0; i < plain.graph.nodes.size(); ++i) {
         const DVec3 expected = plain.graph.nodes[i].position * 8.0 + DVec3(1024, -512, 64);
@@ -70,7 +63,7 @@ TEST_CASE("extract_skeleton: answers in the model's own coordinates") {
 TEST_CASE("extract_skeleton: every input vertex with a face has a node, others have none") {
     Mesh mesh = test::cylinder(0.2, 1.0, 16, 9);
     mesh.positions.emplace_back(9, 9, 9);
-    const ExtractResult result = extract_by_rays(mesh, paper());
+    const ExtractResult result = test::extract(mesh, paper());
     REQUIRE(result.graph.vertex_node.size() == mesh.positions.size());
     for (std::size_t v = 0; v + 1 < mesh.positions.size(); ++v) {
         CHECK(result.graph.vertex_node[v] < result.graph.nodes.size());
@@ -82,7 +75,7 @@ TEST_CASE("extract_skeleton: every input vertex with a face has a node, others h
 TEST_CASE("extract_skeleton: solids get skeletons of their own, and do not see each other") {
     const Mesh one = test::sphere(0.3, 2);
     const Mesh pair = test::together(one, test::moved(one, {0.62, 0, 0}));
-    const ExtractResult result = extract_by_rays(pair, paper());
+    const ExtractResult result = test::extract(pair, paper());
     CHECK(result.statistics.solids == 2);
     REQUIRE(result.graph.nodes.size() == 2);
     CHECK(glm::length(result.graph.nodes[0].position) < 0.02);
@@ -93,9 +86,9 @@ TEST_CASE("extract_skeleton: solids get skeletons of their own, and do not see e
 TEST_CASE("extract_skeleton: the same at one thread and at many") {
     const Mesh mesh = test::torus(0.35, 0.12, 24, 12);
     set_thread_limit(1);
-    const ExtractResult one = extract_by_rays(mesh, paper());
+    const ExtractResult one = test::extract(mesh, paper());
     set_thread_limit(0);
-    const ExtractResult many = extract_by_rays(mesh, paper());
+    const ExtractResult many = test::extract(mesh, paper());
     CHECK(write_skeleton(one.graph, SkeletonFormat::ObjLines) ==
           write_skeleton(many.graph, SkeletonFormat::ObjLines));
     CHECK(one.graph.vertex_node == many.graph.vertex_node);
@@ -108,18 +101,18 @@ TEST_CASE("extract_skeleton: progress is told, and can stop the work") {
         if (stages.empty() || stages.back() != stage) stages.emplace_back(stage);
         return true;
     };
-    extract_by_rays(test::sphere(0.5, 2), options);
+    test::extract(test::sphere(0.5, 2), options);
     CHECK(stages == std::vector<std::string>{"prepare", "backend", "seeds", "settle", "cluster",
                                              "connect", "check"});
     options.progress = [](std::string_view stage, double) { return stage != "settle"; };
-    CHECK_THROWS_AS(extract_by_rays(test::sphere(0.5, 2), options), Cancelled);
+    CHECK_THROWS_AS(test::extract(test::sphere(0.5, 2), options), Cancelled);
 }
 
 TEST_CASE("skeleton_json: holds nodes, edges, vertex map, statistics and provenance") {
     const Mesh mesh = test::cylinder(0.2, 1.0, 16, 9);
     ExtractOptions options = paper();
     options.paper.steps.keep_paths = true;
-    const ExtractResult result = extract_by_rays(mesh, options);
+    const ExtractResult result = test::extract(mesh, options);
     Provenance provenance;
     provenance.options = options;
     provenance.model = "a \"quoted\"\nname.obj";

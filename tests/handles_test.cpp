@@ -8,6 +8,7 @@
 #include <tuple>
 
 #include "support/cycles.h"
+#include "support/extract.h"
 #include "support/shapes.h"
 #include "support/voxels.h"
 #include "zskel/extract.h"
@@ -17,13 +18,6 @@
 using namespace zskel;
 
 namespace {
-
-ExtractResult extract(const Mesh& mesh, const ExtractOptions& options = {}) {
-    BackendOptions backend_options;
-    backend_options.kind = BackendKind::Ray;
-    backend_options.face_px = 8;
-    return extract_skeleton(mesh, options, *open_backend(backend_options));
-}
 
 // One component, as many cycles as expected, all of a basis, and no edge through the surface.
 void check_right(const ExtractResult& result, std::size_t cycles) {
@@ -57,28 +51,28 @@ ExtractOptions few_seeds(int seeds) {
 }  // namespace
 
 TEST_CASE("handles: plates, bars and suitcases have their cycles, and the right ones") {
-    check_right(extract(test::plate_with_holes(4, 5, 2)), 20);
-    check_right(extract(test::jungle_gym(2, 2)), 28);
-    check_right(extract(test::slab_with_handles(3, 2)), 18);
+    check_right(test::extract(test::plate_with_holes(4, 5, 2)), 20);
+    check_right(test::extract(test::jungle_gym(2, 2)), 28);
+    check_right(test::extract(test::slab_with_handles(3, 2)), 18);
 }
 
 TEST_CASE("handles: five hundred of them") {
     ExtractOptions options;
     options.newton.refine.sweeps = 0;
-    check_right(extract(test::plate_with_holes(20, 25, 1), options), 500);
+    check_right(test::extract(test::plate_with_holes(20, 25, 1), options), 500);
 }
 
 TEST_CASE("handles: more of them than seeds round them are found all the same") {
-    check_right(extract(test::plate_with_holes(8, 8, 2), few_seeds(40)), 64);
-    check_right(extract(test::jungle_gym(2, 3), few_seeds(30)), 28);
+    check_right(test::extract(test::plate_with_holes(8, 8, 2), few_seeds(40)), 64);
+    check_right(test::extract(test::jungle_gym(2, 3), few_seeds(30)), 28);
 }
 
 TEST_CASE("cavities: a ball in a ball has no cycle, a torus in a ball one") {
     const Mesh ball = test::sphere(0.5, 4);
-    const ExtractResult hollow = extract(test::together(ball, test::sphere(0.2, 3)));
+    const ExtractResult hollow = test::extract(test::together(ball, test::sphere(0.2, 3)));
     CHECK(hollow.statistics.cavities == 1);
     check_right(hollow, 0);
-    const ExtractResult ring = extract(test::together(ball, test::torus(0.25, 0.08)));
+    const ExtractResult ring = test::extract(test::together(ball, test::torus(0.25, 0.08)));
     CHECK(ring.statistics.cavities == 1);
     check_right(ring, 1);
 }
@@ -86,29 +80,30 @@ TEST_CASE("cavities: a ball in a ball has no cycle, a torus in a ball one") {
 TEST_CASE("cavities: two in a ball, and one off its middle") {
     const Mesh ball = test::sphere(0.5, 4);
     const Mesh small = test::sphere(0.12, 3);
-    const ExtractResult two = extract(test::together(
+    const ExtractResult two = test::extract(test::together(
         test::together(ball, test::moved(small, {0.2, 0, 0})), test::moved(small, {-0.2, 0.1, 0})));
     CHECK(two.statistics.cavities == 2);
     check_right(two, 0);
-    const ExtractResult off = extract(test::together(ball, test::moved(small, {0, 0.3, 0.15})));
+    const ExtractResult off =
+        test::extract(test::together(ball, test::moved(small, {0, 0.3, 0.15})));
     check_right(off, 0);
 }
 
 TEST_CASE("cavities: a torus-shaped one in a torus's tube makes two cycles, a ball there one") {
     const Mesh torus = test::torus(0.35, 0.14);
-    const ExtractResult two = extract(test::together(torus, test::torus(0.35, 0.06)));
+    const ExtractResult two = test::extract(test::together(torus, test::torus(0.35, 0.06)));
     CHECK(two.statistics.cavities == 1);
     check_right(two, 2);
     const ExtractResult one =
-        extract(test::together(torus, test::moved(test::sphere(0.06, 3), {0.35, 0, 0})));
+        test::extract(test::together(torus, test::moved(test::sphere(0.06, 3), {0.35, 0, 0})));
     check_right(one, 1);
 }
 
 TEST_CASE("cavities: are told of") {
     const ExtractResult hollow =
-        extract(test::together(test::sphere(0.5, 3), test::sphere(0.2, 3)));
+        test::extract(test::together(test::sphere(0.5, 3), test::sphere(0.2, 3)));
     CHECK(has_warning(hollow, "1 cavity: the skeleton lies between the shells"));
-    CHECK_FALSE(has_warning(extract(test::torus()), "cavity"));
+    CHECK_FALSE(has_warning(test::extract(test::torus()), "cavity"));
 }
 
 TEST_CASE("handles: those below a size get no cycle, and are listed with size and place") {
@@ -116,9 +111,9 @@ TEST_CASE("handles: those below a size get no cycle, and are listed with size an
     const Mesh plate = test::plate_with_holes(4, 2, 2);
     ExtractOptions options;
     options.newton.min_handle_model = 0.5;
-    check_right(extract(plate, options), 8);
+    check_right(test::extract(plate, options), 8);
     options.newton.min_handle_model = 0.7;
-    const ExtractResult none = extract(plate, options);
+    const ExtractResult none = test::extract(plate, options);
     CHECK(graph_topology(none.graph).cycles == 0);
     CHECK(none.statistics.expected_cycles == 0);
     REQUIRE(none.ignored_handles.size() == 8);
@@ -136,11 +131,11 @@ TEST_CASE("handles: small ones are ignored and the large one beside them is not"
         if (x >= 3 && x < 10 && y >= 3 && y < 10) return false;
         return y != 1 || x % 3 != 2;
     });
-    const ExtractResult all = extract(frame);
+    const ExtractResult all = test::extract(frame);
     check_right(all, 5);
     ExtractOptions options;
     options.newton.min_handle_model = 0.8;
-    const ExtractResult large = extract(frame, options);
+    const ExtractResult large = test::extract(frame, options);
     CHECK(large.ignored_handles.size() == 4);
     const auto cycles = test::tree_cycles(large.graph);
     REQUIRE(cycles.size() == 1);
@@ -170,10 +165,10 @@ TEST_CASE("handles: a thin bar across a ring is cut, and the ring keeps its cycl
         p.y = 4.5 + (p.y - 4.5) * 0.2;
         p.z = 1.5 + (p.z - 1.5) * 0.2;
     }
-    check_right(extract(ring), 2);
+    check_right(test::extract(ring), 2);
     ExtractOptions options;
     options.newton.min_handle_model = 0.3;
-    const ExtractResult cut = extract(ring, options);
+    const ExtractResult cut = test::extract(ring, options);
     REQUIRE(cut.ignored_handles.size() == 1);
     CHECK(cut.ignored_handles[0].is_cut);
     CHECK(glm::distance(cut.ignored_handles[0].position, DVec3(4.5, 4.5, 1.5)) < 1.6);
@@ -237,7 +232,7 @@ constexpr const char* kOpen = "1 of 1 parts are not closed: the skeleton of each
 }  // namespace
 
 TEST_CASE("no solid: an open tube is one piece without a cycle, and says so") {
-    const ExtractResult result = extract(strip(0));
+    const ExtractResult result = test::extract(strip(0));
     CHECK(has_warning(result, kOpen));
     CHECK(graph_topology(result.graph).components == 1);
     CHECK(graph_topology(result.graph).cycles == 0);
@@ -245,7 +240,7 @@ TEST_CASE("no solid: an open tube is one piece without a cycle, and says so") {
 }
 
 TEST_CASE("no solid: a Moebius strip is one piece without a cycle, and says so") {
-    const ExtractResult result = extract(strip(1));
+    const ExtractResult result = test::extract(strip(1));
     CHECK(has_warning(result, kOpen));
     CHECK(has_warning(result, "no consistent orientation exists"));
     CHECK(graph_topology(result.graph).components == 1);
@@ -253,12 +248,12 @@ TEST_CASE("no solid: a Moebius strip is one piece without a cycle, and says so")
 }
 
 TEST_CASE("no solid: two bodies that share an edge are one piece, a common vertex parts them") {
-    const ExtractResult edge = extract(bow_tie(2));
+    const ExtractResult edge = test::extract(bow_tie(2));
     CHECK(has_warning(edge, kOpen));
     CHECK(has_warning(edge, "non-manifold edges kept"));
     CHECK(graph_topology(edge.graph).components == 1);
     CHECK(graph_topology(edge.graph).cycles == 0);
-    const ExtractResult vertex = extract(bow_tie(1));
+    const ExtractResult vertex = test::extract(bow_tie(1));
     CHECK_FALSE(has_warning(vertex, "not closed"));
     CHECK(vertex.statistics.solids == 2);
     CHECK(graph_topology(vertex.graph).components == 2);
@@ -275,7 +270,7 @@ TEST_CASE("handles: a surface that touches itself in a vertex is as if it did no
     const std::vector<Solid> solids = split_solids(prepared);
     REQUIRE(solids.size() == 1);
     CHECK(solids[0].surface.positions.size() == prepared.surface.positions.size() + 1);
-    const ExtractResult result = extract(mesh);
+    const ExtractResult result = test::extract(mesh);
     CHECK(graph_topology(result.graph).components == 1);
     CHECK(graph_topology(result.graph).cycles == 0);
     CHECK_FALSE(has_warning(result, "cycle"));

@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "support/extract.h"
 #include "support/shapes.h"
 #include "zskel/core/parallel.h"
 #include "zskel/extract.h"
@@ -15,13 +16,6 @@
 using namespace zskel;
 
 namespace {
-
-ExtractResult extract(const Mesh& mesh, const ExtractOptions& options = {}) {
-    BackendOptions backend_options;
-    backend_options.kind = BackendKind::Ray;
-    backend_options.face_px = 8;
-    return extract_skeleton(mesh, options, *open_backend(backend_options));
-}
 
 std::size_t count_ends(const SkeletonGraph& graph) {
     const auto degrees = node_degrees(graph);
@@ -52,7 +46,7 @@ TEST_CASE("newton: a ball and a cube are one node at the centre") {
          {test::sphere(0.5, 3),
           test::subdivided(test::subdivided(test::cube(), [](auto p) { return p; }),
                            [](auto p) { return p; })}) {
-        const ExtractResult result = extract(mesh);
+        const ExtractResult result = test::extract(mesh);
         REQUIRE(result.graph.nodes.size() == 1);
         CHECK(glm::length(result.graph.nodes[0].position) < 0.02);
         CHECK(result.graph.nodes[0].radius == doctest::Approx(0.5).epsilon(0.05));
@@ -60,7 +54,7 @@ TEST_CASE("newton: a ball and a cube are one node at the centre") {
 }
 
 TEST_CASE("newton: a cylinder is one branch along its axis, to near its ends") {
-    const ExtractResult result = extract(test::cylinder(0.1, 1.0, 32, 33));
+    const ExtractResult result = test::extract(test::cylinder(0.1, 1.0, 32, 33));
     CHECK(count_ends(result.graph) == 2);
     CHECK(graph_topology(result.graph).cycles == 0);
     double low = 1.0;
@@ -81,7 +75,7 @@ TEST_CASE("newton: a long tapered cone keeps its whole axis") {
             const double radius = 0.12 - 0.1 * i / 64.0;
             return DVec3(radius * std::cos(angle), radius * std::sin(angle), i / 64.0);
         });
-    const ExtractResult result = extract(cone);
+    const ExtractResult result = test::extract(cone);
     CHECK(count_ends(result.graph) == 2);
     double low = 1.0;
     double high = 0.0;
@@ -94,7 +88,7 @@ TEST_CASE("newton: a long tapered cone keeps its whole axis") {
 }
 
 TEST_CASE("newton: a torus is one cycle without ends, inside and centred") {
-    const ExtractResult result = extract(test::torus());
+    const ExtractResult result = test::extract(test::torus());
     CHECK(graph_topology(result.graph).components == 1);
     CHECK(graph_topology(result.graph).cycles == 1);
     CHECK(result.statistics.expected_cycles == 1);
@@ -109,14 +103,14 @@ TEST_CASE("newton: a torus is one cycle without ends, inside and centred") {
 TEST_CASE("newton: two linked tori are two cycles, each its own") {
     Mesh turned = test::torus();
     for (DVec3& p : turned.positions) p = DVec3(p.x + 0.35, p.z, -p.y);
-    const ExtractResult result = extract(test::together(test::torus(), turned));
+    const ExtractResult result = test::extract(test::together(test::torus(), turned));
     CHECK(result.statistics.solids == 2);
     CHECK(graph_topology(result.graph).components == 2);
     CHECK(graph_topology(result.graph).cycles == 2);
 }
 
 TEST_CASE("newton: at most about five evaluations a seed on a tube") {
-    const ExtractResult result = extract(test::torus());
+    const ExtractResult result = test::extract(test::torus());
     std::size_t sum = 0;
     for (const SeedReport& seed : result.seeds) sum += seed.evaluations;
     CHECK(static_cast<double>(sum) <= 5.0 * static_cast<double>(result.seeds.size()));
@@ -124,9 +118,9 @@ TEST_CASE("newton: at most about five evaluations a seed on a tube") {
 
 TEST_CASE("newton: the same at one thread and at many") {
     set_thread_limit(1);
-    const ExtractResult one = extract(test::torus(0.35, 0.12, 32, 16));
+    const ExtractResult one = test::extract(test::torus(0.35, 0.12, 32, 16));
     set_thread_limit(0);
-    const ExtractResult many = extract(test::torus(0.35, 0.12, 32, 16));
+    const ExtractResult many = test::extract(test::torus(0.35, 0.12, 32, 16));
     CHECK(write_skeleton(one.graph, SkeletonFormat::ObjLines) ==
           write_skeleton(many.graph, SkeletonFormat::ObjLines));
     CHECK(one.graph.vertex_node == many.graph.vertex_node);

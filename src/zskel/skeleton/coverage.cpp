@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <utility>
 
+#include "zskel/skeleton/path.h"
+
 namespace zskel {
 
 Coverage::Coverage(const SurfaceQuery& query, std::vector<Vec3> places, std::vector<Vec3> inside)
@@ -35,12 +37,6 @@ void Coverage::add_segment(const Vec3& a, const Vec3& b, float radius_a, float r
             glm::distance(places_[i], center) - glm::mix(radius_a, radius_b, share);
         if (beyond < beyond_[i] && !query_.first_hit(center, inside_[i])) beyond_[i] = beyond;
     }
-}
-
-float length_of(std::span<const Vec3> path) {
-    float sum = 0.0f;
-    for (std::size_t i = 1; i < path.size(); ++i) sum += glm::distance(path[i - 1], path[i]);
-    return sum;
 }
 
 }  // namespace zskel

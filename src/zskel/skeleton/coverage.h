@@ -33,7 +33,4 @@ class Coverage {
     std::vector<float> beyond_;
 };
 
-/// Length of a chain of points.
-float length_of(std::span<const Vec3> path);
-
 }  // namespace zskel

@@ -9,6 +9,7 @@
 
 #include "zskel/skeleton/coverage.h"
 #include "zskel/skeleton/girth.h"
+#include "zskel/skeleton/path.h"
 
 namespace zskel {
 namespace {
@@ -219,8 +220,6 @@ class LimbGrower {
         const float out = sticking_out(seed);
         if (!is_limb(limb, static_cast<double>(out))) {
             ++out_.rejected;
-            out_.longest_rejected_world =
-                std::max(out_.longest_rejected_world, static_cast<double>(out));
             return;
         }
         ++out_.limbs;

@@ -34,7 +34,6 @@ struct Limbs {
                                       ///< that the best way from it leads to
     std::size_t limbs = 0;            ///< grown
     std::size_t rejected = 0;         ///< seeds that stuck out, but not far enough
-    double longest_rejected_world = 0.0;  ///< the farthest that one of those sticks out
 };
 
 /// Starts from the cycles of the network (where there is none, from its thickest cluster), and adds

@@ -9,6 +9,7 @@
 
 #include "zskel/core/disjoint_sets.h"
 #include "zskel/core/parallel.h"
+#include "zskel/skeleton/path.h"
 #include "zskel/skeleton/shell_bridges.h"
 
 namespace zskel {
@@ -118,9 +119,7 @@ class Connector {
                 c.is_inside = tighten(c);
             }
         }
-        c.length = 0.0f;
-        for (std::size_t i = 1; i < c.path.size(); ++i)
-            c.length += glm::distance(c.path[i - 1], c.path[i]);
+        c.length = length_of(c.path);
     }
 
     bool is_way(std::span<const Vec3> path, std::uint64_t sum) const {
@@ -250,33 +249,6 @@ class Connector {
 
 ClusterNetwork connect_network(const ClusterContext& context, const HandleClasses& handles) {
     return Connector(context, handles).run();
-}
-
-std::vector<Vec3> pull_tight(const std::vector<Vec3>& path, const SurfaceQuery& query,
-                             const HandleClasses& handles) {
-    std::vector<std::uint64_t> sums{0};
-    for (std::size_t i = 1; i < path.size(); ++i)
-        sums.push_back(sums.back() + handles.segment_sum(path[i - 1], path[i]));
-    const auto can_skip = [&](std::size_t from, std::size_t to) {
-        return !query.first_hit(path[from], path[to]) &&
-               handles.segment_sum(path[from], path[to]) == sums[to] - sums[from];
-    };
-    std::vector<Vec3> out{path.front()};
-    std::size_t at = 0;
-    while (at + 1 < path.size()) {
-        std::size_t next = path.size() - 1;
-        while (next > at + 1 && !can_skip(at, next)) --next;
-        out.push_back(path[next]);
-        at = next;
-    }
-    return out;
-}
-
-bool is_free(std::span<const Vec3> path, const SurfaceQuery& query) {
-    for (std::size_t i = 1; i < path.size(); ++i) {
-        if (query.first_hit(path[i - 1], path[i])) return false;
-    }
-    return true;
 }
 
 }  // namespace zskel

@@ -36,12 +36,4 @@ struct ClusterNetwork {
 /// at the non-zero numbers of the classes before it.
 ClusterNetwork connect_network(const ClusterContext& context, const HandleClasses& handles);
 
-/// The path, straightened: points are left out while the segment past them is free and goes the
-/// same way round all handles.
-std::vector<Vec3> pull_tight(const std::vector<Vec3>& path, const SurfaceQuery& query,
-                             const HandleClasses& handles = {});
-
-/// Whether every segment of a path is free.
-bool is_free(std::span<const Vec3> path, const SurfaceQuery& query);
-
 }  // namespace zskel

@@ -32,30 +32,10 @@ struct Walker {
 
 class NewtonWalk {
   public:
-    NewtonWalk(std::span<const Seed> seeds, const NewtonOptions& options)
-        : options_(options), settled_(seeds.size()) {
-        for (std::uint32_t i = 0; i < seeds.size(); ++i) {
-            settled_[i].position = seeds[i].position;
-            Walker walker;
-            walker.index = i;
-            walker.tried = seeds[i].position;
-            walkers_.push_back(walker);
-        }
-    }
+    explicit NewtonWalk(const NewtonOptions& options) : options_(options) {}
 
-    std::vector<SettledSeed> run(VisibilitySource& source, const SettleProgress& progress) {
-        walk_to_rest(
-            source, walkers_,
-            [this](Walker& walker, const EyeRecord& met) { return advance(walker, met); },
-            progress);
-        return std::move(settled_);
-    }
-
-  private:
     // Judges what was met at `tried`; true when the walker goes on.
-    bool advance(Walker& walker, const EyeRecord& met) {
-        SettledSeed& seed = settled_[walker.index];
-        ++seed.evaluations;
+    bool advance(Walker& walker, SettledSeed& seed, const EyeRecord& met) const {
         const bool is_outside = met.hit_fraction == 0.0f || met.back_fraction < kLeastBackFraction;
         if (!walker.started && is_outside) {
             seed.path.push_back(walker.tried);
@@ -68,6 +48,7 @@ class NewtonWalk {
         return plan(walker, seed);
     }
 
+  private:
     // Whether the force grew in the axes that the step moved in. The jump may land anywhere in the
     // chord's middle, where forces from both sides compare.
     static bool is_descent(const Walker& walker, const EyeRecord& met) {
@@ -150,8 +131,6 @@ class NewtonWalk {
     }
 
     const NewtonOptions& options_;
-    std::vector<SettledSeed> settled_;
-    std::vector<Walker> walkers_;
 };
 
 }  // namespace
@@ -159,7 +138,13 @@ class NewtonWalk {
 std::vector<SettledSeed> settle_seeds_newton(VisibilitySource& source, std::span<const Seed> seeds,
                                              const NewtonOptions& options,
                                              const SettleProgress& progress) {
-    return NewtonWalk(seeds, options).run(source, progress);
+    const NewtonWalk walk(options);
+    return walk_to_rest<Walker>(
+        source, seeds,
+        [&](Walker& walker, SettledSeed& seed, const EyeRecord& met) {
+            return walk.advance(walker, seed, met);
+        },
+        progress);
 }
 
 }  // namespace zskel

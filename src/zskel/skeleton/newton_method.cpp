@@ -68,18 +68,15 @@ void flatten(const CurveGraph& graph, const Surface& surface, const SeedSpread& 
         out.radii.push_back(node.radius);
         for (const std::uint32_t s : node.seeds) seed_node[s] = number[n];
     }
+    NodeLinks links(out.nodes.size());
     for (std::uint32_t n = 0; n < graph.nodes.size(); ++n) {
         if (graph.nodes[n].is_removed) continue;
         for (const std::uint32_t other : graph.nodes[n].links) {
+            links[number[n]].push_back(number[other]);
             if (number[n] < number[other]) out.edges.emplace_back(number[n], number[other]);
         }
     }
     std::sort(out.edges.begin(), out.edges.end(), edge_before);
-    NodeLinks links(out.nodes.size());
-    for (const glm::uvec2& edge : out.edges) {
-        links[edge.x].push_back(edge.y);
-        links[edge.y].push_back(edge.x);
-    }
     std::vector<std::uint32_t> near;
     for (const std::uint32_t seed : spread.seed_of) near.push_back(seed_node[seed]);
     out.vertex_node = assign_patches(surface, out.nodes, links, near);

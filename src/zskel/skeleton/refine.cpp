@@ -6,6 +6,7 @@
 
 #include "zskel/core/parallel.h"
 #include "zskel/skeleton/branches.h"
+#include "zskel/skeleton/path.h"
 #include "zskel/skeleton/section.h"
 
 namespace zskel {
@@ -39,12 +40,24 @@ std::vector<std::vector<std::uint32_t>> branches_of(const CurveGraph& graph) {
     return trace_branches(graph.nodes.size(), links_in(graph));
 }
 
-float length_of(const CurveGraph& graph, const std::vector<std::uint32_t>& path) {
+float branch_length(const CurveGraph& graph, const std::vector<std::uint32_t>& path) {
     float sum = 0.0f;
     for (std::size_t i = 1; i < path.size(); ++i) {
         sum += glm::distance(graph.nodes[path[i - 1]].position, graph.nodes[path[i]].position);
     }
     return sum;
+}
+
+// New nodes on from `first`, each linked to the one before; returns the last.
+std::uint32_t add_chain(CurveGraph& graph, std::uint32_t first, std::span<const Vec3> points) {
+    std::uint32_t last = first;
+    for (const Vec3& point : points) {
+        const auto next = static_cast<std::uint32_t>(graph.nodes.size());
+        graph.nodes.emplace_back().position = point;
+        link(graph, last, next);
+        last = next;
+    }
+    return last;
 }
 
 void give_seeds(CurveGraph& graph, std::uint32_t from, std::uint32_t to) {
@@ -105,7 +118,7 @@ class Refiner {
         std::uint32_t drop = branch.back();
         if (graph_.nodes[keep].radius < graph_.nodes[drop].radius) std::swap(keep, drop);
         const double bound = options_.merge_radii * static_cast<double>(graph_.nodes[keep].radius);
-        if (static_cast<double>(length_of(graph_, branch)) >= bound) return false;
+        if (static_cast<double>(branch_length(graph_, branch)) >= bound) return false;
         const std::uint32_t last = drop == branch.back() ? branch[branch.size() - 2] : branch[1];
         std::vector<std::uint32_t> moved = graph_.nodes[drop].links;
         unlink_one(moved, last);
@@ -239,9 +252,7 @@ class Refiner {
     // Points within the line, one local spacing apart. Corners stay where the shortcut past them is
     // not free.
     std::vector<Vec3> even_points(const std::vector<Vec3>& line, int least_pieces) const {
-        float length = 0.0f;
-        for (std::size_t i = 1; i < line.size(); ++i) length += glm::distance(line[i - 1], line[i]);
-        const float longest = length / static_cast<float>(least_pieces);
+        const float longest = length_of(line) / static_cast<float>(least_pieces);
         std::vector<Vec3> points;
         Vec3 at = line.front();
         std::size_t next = 1;
@@ -361,24 +372,11 @@ CurveGraph build_graph(const ClusterContext& context, std::span<const Connection
     }
     for (const std::uint32_t i : limbs.connections) {
         const Connection& c = connections[i];
-        std::uint32_t last = number[c.a];
-        for (std::size_t k = 1; k + 1 < c.path.size(); ++k) {
-            const auto next = static_cast<std::uint32_t>(graph.nodes.size());
-            graph.nodes.emplace_back().position = c.path[k];
-            link(graph, last, next);
-            last = next;
-        }
-        link(graph, last, number[c.b]);
+        const std::span<const Vec3> within = std::span(c.path).subspan(1, c.path.size() - 2);
+        link(graph, add_chain(graph, number[c.a], within), number[c.b]);
     }
-    for (const Limbs::Tip& tip : limbs.tips) {
-        std::uint32_t last = number[tip.cluster];
-        for (std::size_t k = 1; k < tip.path.size(); ++k) {
-            const auto next = static_cast<std::uint32_t>(graph.nodes.size());
-            graph.nodes.emplace_back().position = tip.path[k];
-            link(graph, last, next);
-            last = next;
-        }
-    }
+    for (const Limbs::Tip& tip : limbs.tips)
+        add_chain(graph, number[tip.cluster], std::span(tip.path).subspan(1));
     for (Node& node : graph.nodes) node.radius = context.query.nearest(node.position).distance;
     return graph;
 }

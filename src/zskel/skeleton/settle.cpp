@@ -10,36 +10,18 @@ namespace {
 
 // A seed on its way: `tried` waits to be looked from, `force` was met at `seed.position`.
 struct Walker {
-    std::uint32_t index;
-    Vec3 tried;
+    std::uint32_t index = 0;
+    Vec3 tried{0.0f};
     Vec3 force{0.0f};
     bool started = false;
 };
 
 class PaperWalk {
   public:
-    PaperWalk(std::span<const Seed> seeds, const PaperStepOptions& options)
-        : options_(options), settled_(seeds.size()) {
-        walkers_.reserve(seeds.size());
-        for (std::uint32_t i = 0; i < seeds.size(); ++i) {
-            settled_[i].position = seeds[i].position;
-            walkers_.push_back({i, seeds[i].position});
-        }
-    }
+    explicit PaperWalk(const PaperStepOptions& options) : options_(options) {}
 
-    std::vector<SettledSeed> run(VisibilitySource& source, const SettleProgress& progress) {
-        walk_to_rest(
-            source, walkers_,
-            [this](Walker& walker, const EyeRecord& met) { return advance(walker, met); },
-            progress);
-        return std::move(settled_);
-    }
-
-  private:
     // Judges what the walker met at `tried`; true when it goes on.
-    bool advance(Walker& walker, const EyeRecord& met) {
-        SettledSeed& seed = settled_[walker.index];
-        ++seed.evaluations;
+    bool advance(Walker& walker, SettledSeed& seed, const EyeRecord& met) const {
         if (met.hit_fraction == 0.0f) return rest(seed, SeedState::NoHits);
         if (met.back_fraction < kLeastBackFraction) return rest(seed, SeedState::LeftMesh);
         const float strength = glm::length(met.force);
@@ -61,14 +43,13 @@ class PaperWalk {
         return true;
     }
 
+  private:
     static bool rest(SettledSeed& seed, SeedState state) {
         seed.state = state;
         return false;
     }
 
     const PaperStepOptions& options_;
-    std::vector<SettledSeed> settled_;
-    std::vector<Walker> walkers_;
 };
 
 }  // namespace
@@ -90,7 +71,13 @@ std::string_view name_of(SeedState state) {
 std::vector<SettledSeed> settle_seeds(VisibilitySource& source, std::span<const Seed> seeds,
                                       const PaperStepOptions& options,
                                       const SettleProgress& progress) {
-    return PaperWalk(seeds, options).run(source, progress);
+    const PaperWalk walk(options);
+    return walk_to_rest<Walker>(
+        source, seeds,
+        [&](Walker& walker, SettledSeed& seed, const EyeRecord& met) {
+            return walk.advance(walker, seed, met);
+        },
+        progress);
 }
 
 }  // namespace zskel

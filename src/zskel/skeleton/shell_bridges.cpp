@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <tuple>
 
+#include "zskel/skeleton/path.h"
+
 namespace zskel {
 namespace {
 
@@ -15,6 +17,9 @@ struct Pair {
 // Of clusters in different sets, shortest first.
 std::vector<Pair> find_pairs(const std::vector<Vec3>& centers, DisjointSets& sets) {
     std::vector<Pair> pairs;
+    std::uint32_t apart = 0;
+    while (apart < centers.size() && sets.find(apart) == 0) ++apart;
+    if (apart == centers.size()) return pairs;
     for (std::uint32_t a = 0; a < centers.size(); ++a) {
         for (std::uint32_t b = a + 1; b < centers.size(); ++b) {
             if (sets.find(a) != sets.find(b))

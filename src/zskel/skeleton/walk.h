@@ -1,5 +1,6 @@
 #pragma once
 
+#include <span>
 #include <vector>
 
 #include "zskel/skeleton/settle.h"
@@ -10,14 +11,20 @@ namespace zskel {
 /// left.
 inline constexpr float kLeastBackFraction = 0.5f;
 
-/// Lets all walkers look together, one batch a round, until each is at rest.
-/// @param walkers  each with the point `tried` that it waits to look from; empty afterwards.
-/// @param advance  bool(Walker&, const EyeRecord&): judges what was met at `tried`; true when it
-/// goes on.
+/// Lets all seeds look together, one batch a round, until each is at rest.
+/// @tparam Walker  a seed on its way: `index`, and the point `tried` that it waits to look from.
+/// @param advance  bool(Walker&, SettledSeed&, const EyeRecord&): judges what was met at `tried`;
+/// true when the seed goes on.
 template <typename Walker, typename Advance>
-void walk_to_rest(VisibilitySource& source, std::vector<Walker>& walkers, Advance advance,
-                  const SettleProgress& progress) {
-    const auto all = static_cast<double>(walkers.size());
+std::vector<SettledSeed> walk_to_rest(VisibilitySource& source, std::span<const Seed> seeds,
+                                      Advance advance, const SettleProgress& progress) {
+    std::vector<SettledSeed> settled(seeds.size());
+    std::vector<Walker> walkers(seeds.size());
+    for (std::uint32_t i = 0; i < seeds.size(); ++i) {
+        settled[i].position = walkers[i].tried = seeds[i].position;
+        walkers[i].index = i;
+    }
+    const auto all = static_cast<double>(seeds.size());
     std::vector<Vec3> eyes;
     std::vector<EyeRecord> records;
     while (!walkers.empty()) {
@@ -27,11 +34,14 @@ void walk_to_rest(VisibilitySource& source, std::vector<Walker>& walkers, Advanc
         source.look(eyes, records);
         std::size_t kept = 0;
         for (std::size_t i = 0; i < walkers.size(); ++i) {
-            if (advance(walkers[i], records[i])) walkers[kept++] = walkers[i];
+            SettledSeed& seed = settled[walkers[i].index];
+            ++seed.evaluations;
+            if (advance(walkers[i], seed, records[i])) walkers[kept++] = walkers[i];
         }
         walkers.resize(kept);
         if (progress) progress(1.0 - static_cast<double>(kept) / all);
     }
+    return settled;
 }
 
 }  // namespace zskel
