@@ -11,7 +11,8 @@ Coverage::Coverage(const SurfaceQuery& query, std::vector<Vec3> places, std::vec
     : query_(query),
       places_(std::move(places)),
       inside_(std::move(inside)),
-      beyond_(places_.size(), kInfinity) {}
+      beyond_(places_.size(), kInfinity),
+      distance_(places_.size(), kInfinity) {}
 
 void Coverage::add(std::span<const Vec3> path, float first_radius, float last_radius) {
     const float length = length_of(path);
@@ -33,9 +34,12 @@ void Coverage::add_segment(const Vec3& a, const Vec3& b, float radius_a, float r
         const float part = square > 0.0f ? glm::dot(places_[i] - a, along) / square : 0.0f;
         const float share = glm::clamp(part, 0.0f, 1.0f);
         const Vec3 center = a + along * share;
-        const float beyond =
-            glm::distance(places_[i], center) - glm::mix(radius_a, radius_b, share);
-        if (beyond < beyond_[i] && !query_.first_hit(center, inside_[i])) beyond_[i] = beyond;
+        const float distance = glm::distance(places_[i], center);
+        const float beyond = distance - glm::mix(radius_a, radius_b, share);
+        if (beyond >= beyond_[i] && distance >= distance_[i]) continue;
+        if (query_.first_hit(center, inside_[i])) continue;
+        beyond_[i] = std::min(beyond_[i], beyond);
+        distance_[i] = std::min(distance_[i], distance);
     }
 }
 

@@ -7,9 +7,9 @@
 
 namespace zskel {
 
-/// Which places on the surface stick out of the balls along a skeleton while it grows, and how far.
-/// A ball counts for the places that its centre sees: a tail beside a leg is not in the leg's
-/// balls.
+/// How far places on the surface lie from a skeleton while it grows, and stick out of the balls
+/// along it. A ball counts for the places that its centre sees: a tail beside a leg is not in the
+/// leg's balls.
 class Coverage {
   public:
     /// @param places   on the surface.
@@ -22,6 +22,9 @@ class Coverage {
     /// From a place to the nearest ball that sees it; negative inside, infinite when none does.
     float beyond(std::size_t place) const { return beyond_[place]; }
 
+    /// From a place to the nearest point of a path that sees it; infinite when none does.
+    float distance(std::size_t place) const { return distance_[place]; }
+
     const std::vector<Vec3>& places() const { return places_; }
 
   private:
@@ -31,6 +34,7 @@ class Coverage {
     std::vector<Vec3> places_;
     std::vector<Vec3> inside_;
     std::vector<float> beyond_;
+    std::vector<float> distance_;
 };
 
 }  // namespace zskel

@@ -13,4 +13,12 @@ namespace zskel {
 /// flat limb do not count as limbs of their own.
 std::vector<float> girths_at(const SurfaceQuery& query, std::span<const Vec3> points);
 
+/// Half the local thickness under places on the surface: the median free way into a cone about the
+/// inward normal, halved.
+/// @param inside   a point just inside each place.
+/// @param normals  outward, unit.
+/// @see Shapira et al. 2008 (shape diameter function)
+std::vector<float> depths_under(const SurfaceQuery& query, std::span<const Vec3> inside,
+                                std::span<const Vec3> normals);
+
 }  // namespace zskel

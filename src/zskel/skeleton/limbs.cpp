@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "zskel/skeleton/coverage.h"
+#include "zskel/skeleton/far_patches.h"
 #include "zskel/skeleton/girth.h"
 #include "zskel/skeleton/path.h"
 
@@ -105,6 +106,7 @@ class LimbGrower {
         keep_core(spanning);
         for (std::uint32_t seed = farthest_out(); seed != kNone; seed = farthest_out())
             try_limb(seed);
+        grow_fat_ends();
         for (std::uint32_t c = 0; c < girths_.size(); ++c)
             out_.home.push_back(way_to_kept(c).back());
         return std::move(out_);
@@ -222,6 +224,10 @@ class LimbGrower {
             ++out_.rejected;
             return;
         }
+        keep_limb(std::move(limb));
+    }
+
+    void keep_limb(Limb limb) {
         ++out_.limbs;
         for (std::size_t i = limb.way.size() - 1; i-- > 0;) {
             Way& way = ways_[limb.way[i]];
@@ -290,7 +296,70 @@ class LimbGrower {
         return own >= options_.least_own_girths && of_junction >= options_.least_junction_girths &&
                own * of_junction >= options_.least_product &&
                (!is_bare || own >= options_.bare_own_girths ||
+                own * of_junction >= options_.bare_product ||
                 out >= options_.detail * options_.bare_world);
+    }
+
+    // One limb changes what is far from the skeleton; what was looked at once is left alone.
+    void grow_fat_ends() {
+        const FarPatches far(context_);
+        std::vector<bool> is_seen(is_tried_.size(), false);
+        bool has_grown = true;
+        while (has_grown) {
+            has_grown = false;
+            for (const FarPatch& patch : far.find(coverage_)) {
+                if (has_grown || patch.area_depths < options_.detail * options_.fat_area) break;
+                const auto was_seen = [&](std::uint32_t s) { return is_seen[s]; };
+                if (std::any_of(patch.seeds.begin(), patch.seeds.end(), was_seen)) continue;
+                for (const std::uint32_t s : patch.seeds) is_seen[s] = true;
+                Limb limb = limb_to(patch);
+                has_grown = is_fat_end(limb, patch, far);
+                if (has_grown) keep_limb(std::move(limb));
+            }
+        }
+    }
+
+    // Straight through the patch's middle, to before the surface.
+    Limb limb_to(const FarPatch& patch) const {
+        Limb limb;
+        limb.way = way_to_kept(context_.clusters.of_point[patch.farthest]);
+        const Vec3& from = centers_[limb.way.front()];
+        const Vec3 way = patch.centre - from;
+        if (!(glm::length(way) > 0.0f)) return limb;
+        const Vec3 ahead = glm::normalize(way);
+        const float last = kLastBallShare * context_.query.free_way(from, ahead);
+        for (int k = 0; k <= kTipPieces; ++k)
+            limb.tip.push_back(
+                from + ahead * (last * static_cast<float>(k) / static_cast<float>(kTipPieces)));
+        limb.tip_girths = girths_at(context_.query, limb.tip);
+        return limb;
+    }
+
+    // Flat bodies are left alone: no curve lies near to all of their surface.
+    bool is_fat_end(const Limb& limb, const FarPatch& patch, const FarPatches& far) const {
+        const std::uint32_t root = limb.way.back();
+        const auto is_at_root = [&](std::uint32_t i) {
+            return connections_[i].a == root || connections_[i].b == root;
+        };
+        const auto degree =
+            std::count_if(out_.connections.begin(), out_.connections.end(), is_at_root);
+        const auto girth = static_cast<double>(girths_[root]);
+        const auto radius = static_cast<double>(context_.query.nearest(centers_[root]).distance);
+        if (degree == 1 || degree == 2 || girth > options_.fat_roundness * radius ||
+            static_cast<double>(patch.depth) < options_.fat_depth * girth)
+            return false;
+        std::vector<Vec3> line;
+        for (const std::uint32_t c : limb.way) line.push_back(centers_[c]);
+        std::reverse(line.begin(), line.end());
+        line.insert(line.end(), limb.tip.begin(), limb.tip.end());
+        double all = 0.0;
+        double gained = 0.0;
+        for (const std::uint32_t s : patch.seeds) {
+            const auto area = static_cast<double>(far.area(s));
+            all += area;
+            if (!far.is_far(s, distance_to(line, coverage_.places()[s]))) gained += area;
+        }
+        return gained >= options_.fat_gain * all;
     }
 
     const ClusterContext& context_;

@@ -15,10 +15,15 @@ struct LimbOptions {
     double least_world = 0.02;            ///< sticks out at least this far, in the solid's size,
     double least_own_girths = 1.0;        ///< this many of its own girths,
     double least_junction_girths = 0.25;  ///< and of the body's,
-    double least_product = 0.43;          ///< and so much by the product of the two
+    double least_product = 0.53;          ///< and so much by the product of the two
     double bare_own_girths =
-        2.5;                   ///< where no seed came to rest beyond the ball: so many of its own,
-    double bare_world = 0.12;  ///< or as far as this
+        2.5;                    ///< where no seed came to rest beyond the ball: so many of its own,
+    double bare_product = 2.4;  ///< so much by the product,
+    double bare_world = 0.12;   ///< or as far as this
+    double fat_area = 3.0;      ///< a fat end has at least this area, in squares of its own depth,
+    double fat_depth = 0.4;     ///< a mean depth of this many of the body's girths,
+    double fat_gain = 0.5;      ///< and brings this share of the area near to the skeleton,
+    double fat_roundness = 1.6;  ///< on a body whose girth is at most so many of its radii
 };
 
 /// What of a network is skeleton.
@@ -39,7 +44,8 @@ struct Limbs {
 /// Starts from the cycles of the network (where there is none, from its thickest cluster), and adds
 /// limbs as long as the surface at some seed sticks out of the balls along what is kept: the way
 /// from the rest place of the seed that sticks out farthest, along the thick middle, and on to
-/// where the seed came from if its place is still far.
+/// where the seed came from if its place is still far. Then fat ends: a part that hardly sticks out
+/// of the ball of its body, as a vase's foot, but lies far from it in its own thickness.
 /// @see Sato et al. 2000 (TEASAR) for paths from the farthest place not covered; the measures of
 ///      what is covered and what is a limb are ours.
 Limbs grow_limbs(const ClusterContext& context, const ClusterNetwork& network,

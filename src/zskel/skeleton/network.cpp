@@ -27,13 +27,6 @@ void add_to(Class& sum, const Class& other, std::int64_t sign) {
     for (std::size_t k = 0; k < sum.size(); ++k) sum[k] += sign * other[k];
 }
 
-float distance_to(const Vec3& from, const Vec3& to, const Vec3& point) {
-    const Vec3 way = to - from;
-    const float length2 = glm::dot(way, way);
-    const float share = length2 > 0.0f ? glm::dot(point - from, way) / length2 : 0.0f;
-    return glm::distance(point, from + way * std::clamp(share, 0.0f, 1.0f));
-}
-
 class Connector {
   public:
     Connector(const ClusterContext& context, const HandleClasses& handles)
@@ -166,9 +159,7 @@ class Connector {
         for (const SmallHandle& handle : handles_.ignored) {
             if (!handle.is_cut) continue;
             const auto reach = static_cast<float>(0.5 * std::numbers::pi * handle.radius);
-            for (std::size_t i = 1; i < path.size(); ++i) {
-                if (distance_to(path[i - 1], path[i], handle.position) < reach) return true;
-            }
+            if (distance_to(path, handle.position) < reach) return true;
         }
         return false;
     }

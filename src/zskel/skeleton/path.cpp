@@ -1,5 +1,6 @@
 #include "zskel/skeleton/path.h"
 
+#include <algorithm>
 #include <cstdint>
 
 namespace zskel {
@@ -8,6 +9,18 @@ float length_of(std::span<const Vec3> path) {
     float sum = 0.0f;
     for (std::size_t i = 1; i < path.size(); ++i) sum += glm::distance(path[i - 1], path[i]);
     return sum;
+}
+
+float distance_to(std::span<const Vec3> path, const Vec3& point) {
+    float least = kInfinity;
+    for (std::size_t i = 1; i < path.size(); ++i) {
+        const Vec3 way = path[i] - path[i - 1];
+        const float length2 = glm::dot(way, way);
+        const float share = length2 > 0.0f ? glm::dot(point - path[i - 1], way) / length2 : 0.0f;
+        const Vec3 nearest = path[i - 1] + way * std::clamp(share, 0.0f, 1.0f);
+        least = std::min(least, glm::distance(point, nearest));
+    }
+    return least;
 }
 
 bool is_free(std::span<const Vec3> path, const SurfaceQuery& query) {

@@ -11,6 +11,9 @@ namespace zskel {
 /// Length of a chain of points.
 float length_of(std::span<const Vec3> path);
 
+/// From a point to the nearest point of a chain of points; infinite when that has no segment.
+float distance_to(std::span<const Vec3> path, const Vec3& point);
+
 /// Whether every segment of a path is free.
 bool is_free(std::span<const Vec3> path, const SurfaceQuery& query);
 

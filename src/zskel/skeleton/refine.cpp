@@ -78,11 +78,13 @@ class Refiner {
         extend_ends();
         resample();
         for (int i = 0; i < options_.smoothing_sweeps; ++i) smooth(options_.smoothing);
+        weigh_centring();
         for (int i = 0; i < options_.sweeps; ++i) {
             centre();
             smooth(options_.smoothing);
             smooth(-options_.unshrink);
         }
+        aim_ends();
         resample();
         for (Node& node : graph_.nodes) {
             if (!node.is_removed) node.radius = query_.nearest(node.position).distance;
@@ -304,16 +306,40 @@ class Refiner {
         move(targets);
     }
 
-    // One pass over all nodes within branches, each to the centre of its section.
-    void centre() {
-        std::vector<std::uint32_t> moving;
-        for (std::uint32_t n = 0; n < graph_.nodes.size(); ++n) {
-            if (!graph_.nodes[n].is_removed && graph_.nodes[n].links.size() == 2)
-                moving.push_back(n);
+    // How much each node within a branch is centred: little next to junctions.
+    void weigh_centring() {
+        centring_.assign(graph_.nodes.size(), 0.0f);
+        for (const std::vector<std::uint32_t>& branch : branches_of(graph_)) {
+            for (const std::uint32_t n : branch) {
+                if (graph_.nodes[n].links.size() == 2)
+                    centring_[n] = static_cast<float>(options_.centring);
+            }
+            fade_centring(branch.begin(), branch.end());
+            fade_centring(branch.rbegin(), branch.rend());
         }
-        std::vector<std::pair<std::uint32_t, Vec3>> targets(moving.size());
-        parallel_for(moving.size(), 4, [&](std::size_t begin, std::size_t end) {
-            for (std::size_t i = begin; i < end; ++i) targets[i] = {moving[i], centred(moving[i])};
+    }
+
+    template <typename Iterator>
+    void fade_centring(Iterator first, Iterator last) {
+        const Node& junction = graph_.nodes[*first];
+        if (junction.links.size() < 3) return;
+        const float reach = static_cast<float>(options_.junction_radii) *
+                            query_.nearest(junction.position).distance;
+        for (; first != last; ++first) {
+            const float away = glm::distance(graph_.nodes[*first].position, junction.position);
+            if (away >= reach) return;
+            centring_[*first] *= (away / reach) * (away / reach);
+        }
+    }
+
+    // One pass over all nodes within branches, each towards the centre of its section.
+    void centre() {
+        std::vector<std::pair<std::uint32_t, Vec3>> targets;
+        for (std::uint32_t n = 0; n < graph_.nodes.size(); ++n) {
+            if (centring_[n] > 0.0f) targets.emplace_back(n, Vec3(0.0f));
+        }
+        parallel_for(targets.size(), 4, [&](std::size_t begin, std::size_t end) {
+            for (std::size_t i = begin; i < end; ++i) targets[i].second = centred(targets[i].first);
         });
         move(targets);
     }
@@ -322,12 +348,45 @@ class Refiner {
         const Node& node = graph_.nodes[n];
         const Vec3 chord = ahead_of(n, node.links[1]) - ahead_of(n, node.links[0]);
         if (!(glm::length(chord) > 0.0f)) return node.position;
-        const Vec3 step = step_to_section_centre(query_, node.position, glm::normalize(chord));
-        const auto share = static_cast<float>(options_.centring);
+        const Vec3 step =
+            step_to_section_centre(query_, node.position, glm::normalize(chord)) * centring_[n];
         const float longest = static_cast<float>(options_.longest_move_radii) *
                               query_.nearest(node.position).distance;
-        const float length = glm::length(step) * share;
-        return node.position + step * (length > longest ? share * longest / length : share);
+        const float length = glm::length(step);
+        return node.position + (length > longest ? step * (longest / length) : step);
+    }
+
+    // The last stretch of a branch goes straight on from where the section is whole: a flat end is
+    // left through its middle, not at a corner.
+    void aim_ends() {
+        for (std::uint32_t n = 0; n < graph_.nodes.size(); ++n) {
+            if (!graph_.nodes[n].is_removed && graph_.nodes[n].links.size() == 1) aim_end(n);
+        }
+    }
+
+    void aim_end(std::uint32_t end) {
+        const std::vector<std::uint32_t> path =
+            walk_branch(links_in(graph_), end, graph_.nodes[end].links[0]);
+        const auto at = [&](std::size_t i) -> Vec3& { return graph_.nodes[path[i]].position; };
+        const auto away = [&](std::size_t from, std::size_t to) {
+            return static_cast<double>(glm::distance(at(from), at(to)));
+        };
+        const auto radius = [&](std::size_t i) {
+            return static_cast<double>(query_.nearest(at(i)).distance);
+        };
+        std::size_t base = 1;
+        while (base + 1 < path.size() && away(base, 0) < options_.aim_radii * radius(base)) ++base;
+        std::size_t behind = base + 1;
+        while (behind + 1 < path.size() && away(behind, base) < radius(base)) ++behind;
+        if (behind >= path.size() || !(away(behind, base) > 0.0)) return;
+        const Vec3 ahead = glm::normalize(at(base) - at(behind));
+        const auto way = static_cast<double>(query_.free_way(at(base), ahead));
+        const double length = way - options_.tip_gap_radii * std::min(radius(base), way);
+        if (length < options_.aim_least * away(base, 0)) return;
+        const Vec3 start = at(base);
+        for (std::size_t i = 0; i < base; ++i)
+            at(i) = start + ahead * static_cast<float>(length * static_cast<double>(base - i) /
+                                                       static_cast<double>(base));
     }
 
     // A point of the branch two nodes on from `n` over its neighbour `next`.
@@ -353,6 +412,7 @@ class Refiner {
     std::span<const Vec3> seed_points_;
     const SurfaceQuery& query_;
     const RefineOptions& options_;
+    std::vector<float> centring_;  // of every node: share of the way that a sweep takes
     RefineReport report_;
 };
 

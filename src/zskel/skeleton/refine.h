@@ -27,11 +27,15 @@ struct RefineOptions {
     double min_spacing_world = 0.004;  ///< of nodes; between these bounds it is the radius
     double max_spacing_world = 0.02;
     int smoothing_sweeps = 12;  ///< before, of smoothing alone
-    int sweeps = 24;            ///< of centring and smoothing
-    double centring = 0.2;      ///< share of the step to the section's centre that a sweep takes
+    int sweeps = 60;            ///< of centring and smoothing
+    double centring = 0.2;      ///< share of the way to the section's centre that a sweep takes
     double longest_move_radii = 0.3;  ///< but no longer than this, in inscribed radii
-    double smoothing = 0.5;           ///< share of the way to the middle of the neighbours,
-    double unshrink = 0.3;            ///< and then away from it, so that bends are not cut
+    double junction_radii = 0.3;      ///< nearer to a junction the centring fades: a section says
+                                      ///< little where branches part
+    double smoothing = 0.7;           ///< share of the way to the middle of the neighbours,
+    double unshrink = 0.55;           ///< and then away from it, so that bends are not cut
+    double aim_radii = 1.75;          ///< the last stretch of so many radii goes straight on
+    double aim_least = 0.7;           ///< unless it would lose more than this share of its length
 };
 
 struct RefineReport {

@@ -9,13 +9,7 @@ namespace zskel {
 namespace {
 
 constexpr std::size_t kPairs = 16;
-constexpr float kFarthest = 4.0f;  // more than any solid's width in world units
 constexpr double kMostMedians = 3.0;
-
-double free_way(const SurfaceQuery& query, const Vec3& from, const DVec3& direction) {
-    const auto hit = query.first_hit(from, from + Vec3(direction) * kFarthest);
-    return static_cast<double>(hit ? hit->fraction * kFarthest : kFarthest);
-}
 
 }  // namespace
 
@@ -29,8 +23,8 @@ Vec3 step_to_section_centre(const SurfaceQuery& query, const Vec3& point, const 
     for (std::size_t i = 0; i < kPairs; ++i) {
         const double angle = std::numbers::pi * static_cast<double>(i) / kPairs;
         directions[i] = across * std::cos(angle) + up * std::sin(angle);
-        ways[i] = free_way(query, point, directions[i]);
-        ways[i + kPairs] = free_way(query, point, -directions[i]);
+        ways[i] = static_cast<double>(query.free_way(point, Vec3(directions[i])));
+        ways[i + kPairs] = static_cast<double>(query.free_way(point, Vec3(-directions[i])));
     }
     std::array<double, 2 * kPairs> sorted = ways;
     std::nth_element(sorted.begin(), sorted.begin() + kPairs, sorted.end());

@@ -7,7 +7,6 @@
 namespace zskel {
 namespace {
 
-constexpr float kLongestChord = 4.0f;  // more than the diagonal of the unit cube
 constexpr float kClearOfVertex =
     1e-5f;  // where the inward ray starts, past the vertex's own triangles
 
@@ -19,10 +18,8 @@ std::vector<float> vertex_thickness(const Surface& surface, const SurfaceQuery& 
         for (std::size_t v = begin; v < end; ++v) {
             const Vec3& vertex = surface.positions[v];
             const Vec3 inward = -surface.vertex_normals[v];
-            const auto hit =
-                query.first_hit(vertex + inward * kClearOfVertex, vertex + inward * kLongestChord);
             thickness[v] =
-                hit ? std::max(hit->fraction * kLongestChord, kClearOfVertex) : kLongestChord;
+                std::max(query.free_way(vertex + inward * kClearOfVertex, inward), kClearOfVertex);
         }
     });
     return thickness;

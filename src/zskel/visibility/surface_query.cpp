@@ -99,6 +99,11 @@ std::optional<SurfaceQuery::Hit> SurfaceQuery::first_hit(const Vec3& from, const
     return Hit{ray.ray.tfar, ray.hit.primID};
 }
 
+float SurfaceQuery::free_way(const Vec3& from, const Vec3& direction, float farthest) const {
+    const auto hit = first_hit(from, from + direction * farthest);
+    return hit ? hit->fraction * farthest : farthest;
+}
+
 double SurfaceQuery::winding_number(const Vec3& point) const {
     return zskel::winding_number(impl_->surface.positions, impl_->surface.triangles, DVec3(point));
 }

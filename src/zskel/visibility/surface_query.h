@@ -30,6 +30,13 @@ class SurfaceQuery {
     /// The first triangle that the segment meets; nothing when it is free.
     std::optional<Hit> first_hit(const Vec3& from, const Vec3& to) const;
 
+    /// More than any solid's width, world units.
+    static constexpr float kFarthest = 4.0f;
+
+    /// From a point on in a unit direction to the surface, world units; `farthest` when there is
+    /// none so near.
+    float free_way(const Vec3& from, const Vec3& direction, float farthest = kFarthest) const;
+
     /// Winding number about `point`, exact also for open surfaces. O(triangles).
     double winding_number(const Vec3& point) const;
 
