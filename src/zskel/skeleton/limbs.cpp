@@ -335,7 +335,8 @@ class LimbGrower {
         return limb;
     }
 
-    // Flat bodies are left alone: no curve lies near to all of their surface.
+    // It grows from a junction or a lone core, out of the ball there: other ends get extended. Flat
+    // bodies are left alone: no curve lies near to all of their surface.
     bool is_fat_end(const Limb& limb, const FarPatch& patch, const FarPatches& far) const {
         const std::uint32_t root = limb.way.back();
         const auto is_at_root = [&](std::uint32_t i) {
@@ -345,9 +346,10 @@ class LimbGrower {
             std::count_if(out_.connections.begin(), out_.connections.end(), is_at_root);
         const auto girth = static_cast<double>(girths_[root]);
         const auto radius = static_cast<double>(context_.query.nearest(centers_[root]).distance);
-        if (degree == 1 || degree == 2 || girth > options_.fat_roundness * radius ||
-            static_cast<double>(patch.depth) < options_.fat_depth * girth)
-            return false;
+        const bool is_flat = girth > options_.fat_roundness * radius;
+        const bool is_shallow = static_cast<double>(patch.depth) < options_.fat_depth * girth;
+        const bool is_short = static_cast<double>(length_of(limb.tip)) < girth;
+        if (degree == 1 || degree == 2 || is_flat || is_shallow || is_short) return false;
         std::vector<Vec3> line;
         for (const std::uint32_t c : limb.way) line.push_back(centers_[c]);
         std::reverse(line.begin(), line.end());
