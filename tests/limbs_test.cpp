@@ -37,6 +37,17 @@ TEST_CASE("the girth is the radius at a ball's centre and 1.15 of it on a tube's
           doctest::Approx(0.1 / std::sin(std::acos(0.5))).epsilon(0.04));
 }
 
+TEST_CASE(
+    "the depth under a sphere is the median half chord into the cone, and infinite without a "
+    "normal") {
+    const Shape ball(test::sphere(0.5));
+    const std::array inside{ball.at(0, 0, 0.499), ball.at(0, 0, 0.499)};
+    const std::vector<float> depths =
+        depths_under(ball.query, inside, std::array{Vec3(0, 0, 1), Vec3(0.0f)});
+    CHECK(ball.model(depths[0]) == doctest::Approx(0.5 * 0.85).epsilon(0.02));
+    CHECK(std::isinf(depths[1]));
+}
+
 TEST_CASE("a step to the section's centre lands on a tube's axis, from either side") {
     const Shape tube(test::cylinder(0.1, 2.0));
     const auto off = static_cast<float>(0.04 * tube.surface.world_from_model.scale);

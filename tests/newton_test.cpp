@@ -87,6 +87,42 @@ TEST_CASE("newton: a long tapered cone keeps its whole axis") {
     CHECK(high > 0.95);
 }
 
+TEST_CASE(
+    "newton: a vase's axis goes on into its foot, which hardly sticks out of the belly's ball") {
+    constexpr double kBelly = 0.3;
+    constexpr double kFoot = 0.21;  // radius, and where the foot joins the belly's sphere
+    const auto height = [](int i) { return -0.55 + 0.85 * i / 48.0; };
+    const Mesh vase = test::capped_rings(
+        49, 32, [&](int i) { return DVec3(0, 0, height(i)); },
+        [&](int i, double angle) {
+            const double z = height(i);
+            const double radius =
+                std::max(z < 0.0 ? kFoot : 0.02, std::sqrt(std::max(0.0, kBelly * kBelly - z * z)));
+            return DVec3(radius * std::cos(angle), radius * std::sin(angle), z);
+        });
+    const auto lowest = [&](const ExtractOptions& options) {
+        double low = 1.0;
+        for (const SkeletonGraph::Node& node : test::extract(vase, options).graph.nodes)
+            low = std::min(low, node.position.z);
+        return low;
+    };
+    ExtractOptions without;
+    without.newton.limbs.fat_area = 1e9;
+    CHECK(lowest(without) > -0.1);
+    CHECK(lowest({}) < -0.25);
+}
+
+TEST_CASE("newton: a flat end is left through its middle, not at a corner") {
+    const Mesh box = test::subdivided(test::subdivided(test::cube(), [](auto p) { return p; }),
+                                      [](auto p) { return p; });
+    Mesh beam = box;
+    for (DVec3& p : beam.positions) p = DVec3(0.2 * p.x, 0.2 * p.y, p.z);
+    const ExtractResult result = test::extract(beam);
+    CHECK(count_ends(result.graph) == 2);
+    for (const SkeletonGraph::Node& node : result.graph.nodes)
+        CHECK(std::hypot(node.position.x, node.position.y) < 0.02);
+}
+
 TEST_CASE("newton: a torus is one cycle without ends, inside and centred") {
     const ExtractResult result = test::extract(test::torus());
     CHECK(graph_topology(result.graph).components == 1);

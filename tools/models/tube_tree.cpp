@@ -26,7 +26,7 @@ double angle_between(const glm::dvec3& a, const glm::dvec3& b) {
 }
 
 unsigned ring_points(double radius) {
-    return radius > 0.010 ? 12 : radius > 0.005 ? 8 : 6;
+    return radius > 0.010 ? 12 : 8;
 }
 
 /// Polygons of that many points and of the circle's area are this much wider than it.

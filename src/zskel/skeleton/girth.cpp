@@ -48,7 +48,7 @@ std::vector<float> depths_under(const SurfaceQuery& query, std::span<const Vec3>
                 if (glm::dot(way, -normals[i]) >= kLeastCosine)
                     ways.push_back(query.free_way(inside[i], way));
             }
-            out[i] = 0.5f * middle_of(ways);
+            out[i] = ways.empty() ? kInfinity : 0.5f * middle_of(ways);
         }
     });
     return out;

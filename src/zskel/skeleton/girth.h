@@ -14,7 +14,7 @@ namespace zskel {
 std::vector<float> girths_at(const SurfaceQuery& query, std::span<const Vec3> points);
 
 /// Half the local thickness under places on the surface: the median free way into a cone about the
-/// inward normal, halved.
+/// inward normal, halved; infinite where there is no normal.
 /// @param inside   a point just inside each place.
 /// @param normals  outward, unit.
 /// @see Shapira et al. 2008 (shape diameter function)

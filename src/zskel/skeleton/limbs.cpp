@@ -346,14 +346,14 @@ class LimbGrower {
             std::count_if(out_.connections.begin(), out_.connections.end(), is_at_root);
         const auto girth = static_cast<double>(girths_[root]);
         const auto radius = static_cast<double>(context_.query.nearest(centers_[root]).distance);
-        const bool is_flat = girth > options_.fat_roundness * radius;
-        const bool is_shallow = static_cast<double>(patch.depth) < options_.fat_depth * girth;
-        const bool is_short = static_cast<double>(length_of(limb.tip)) < girth;
-        if (degree == 1 || degree == 2 || is_flat || is_shallow || is_short) return false;
         std::vector<Vec3> line;
         for (const std::uint32_t c : limb.way) line.push_back(centers_[c]);
         std::reverse(line.begin(), line.end());
         line.insert(line.end(), limb.tip.begin(), limb.tip.end());
+        const bool is_flat = girth > options_.fat_roundness * radius;
+        const bool is_shallow = static_cast<double>(patch.depth) < options_.fat_depth * girth;
+        const bool is_short = static_cast<double>(length_of(line)) < girth;
+        if (degree == 1 || degree == 2 || is_flat || is_shallow || is_short) return false;
         double all = 0.0;
         double gained = 0.0;
         for (const std::uint32_t s : patch.seeds) {

@@ -23,7 +23,7 @@ struct LimbOptions {
     double fat_area = 3.0;      ///< a fat end has at least this area, in squares of its own depth,
     double fat_depth = 0.35;    ///< a mean depth of this many of the body's girths,
     double fat_gain = 0.5;      ///< and brings this share of the area near to the skeleton,
-    double fat_roundness = 1.6;  ///< on a body whose girth is at most so many of its radii
+    double fat_roundness = 1.52;  ///< on a body whose girth is at most so many of its radii
 };
 
 /// What of a network is skeleton.

@@ -380,9 +380,10 @@ class Refiner {
         while (behind + 1 < path.size() && away(behind, base) < radius(base)) ++behind;
         if (behind >= path.size() || !(away(behind, base) > 0.0)) return;
         const Vec3 ahead = glm::normalize(at(base) - at(behind));
+        const double now = away(base, 0);
         const auto way = static_cast<double>(query_.free_way(at(base), ahead));
         const double length = way - options_.tip_gap_radii * std::min(radius(base), way);
-        if (length < options_.aim_least * away(base, 0)) return;
+        if (length < options_.aim_least * now || way > now + radius(base)) return;
         const Vec3 start = at(base);
         for (std::size_t i = 0; i < base; ++i)
             at(i) = start + ahead * static_cast<float>(length * static_cast<double>(base - i) /

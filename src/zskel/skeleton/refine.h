@@ -35,7 +35,8 @@ struct RefineOptions {
     double smoothing = 0.7;           ///< share of the way to the middle of the neighbours,
     double unshrink = 0.55;           ///< and then away from it, so that bends are not cut
     double aim_radii = 1.75;          ///< the last stretch of so many radii goes straight on
-    double aim_least = 0.7;           ///< unless it would lose more than this share of its length
+    double aim_least =
+        0.7;  ///< unless that is shorter than this share of it, or longer by a radius
 };
 
 struct RefineReport {
