@@ -220,7 +220,7 @@ class LimbGrower {
         limb.tip = tip_of(limb.way.front(), seed);
         limb.tip_girths = girths_at(context_.query, limb.tip);
         const float out = sticking_out(seed);
-        if (!is_limb(limb, static_cast<double>(out))) {
+        if (!may_keep(limb) || !is_limb(limb, static_cast<double>(out))) {
             ++out_.rejected;
             return;
         }
@@ -240,6 +240,14 @@ class LimbGrower {
         if (!limb.tip.empty()) out_.tips.push_back({limb.way.front(), limb.tip});
         limb.way.pop_back();
         keep(limb.way);
+    }
+
+    // What cuts through itself may have places that no way inside leads to.
+    bool may_keep(const Limb& limb) const {
+        return !context_.is_closed ||
+               std::all_of(limb.way.begin(), limb.way.end() - 1, [&](std::uint32_t c) {
+                   return connections_[ways_[c].connection].is_inside;
+               });
     }
 
     std::vector<std::uint32_t> way_to_kept(std::uint32_t cluster) const {
@@ -313,7 +321,7 @@ class LimbGrower {
                 if (std::any_of(patch.seeds.begin(), patch.seeds.end(), was_seen)) continue;
                 for (const std::uint32_t s : patch.seeds) is_seen[s] = true;
                 Limb limb = limb_to(patch);
-                has_grown = is_fat_end(limb, patch, far);
+                has_grown = may_keep(limb) && is_fat_end(limb, patch, far);
                 if (has_grown) keep_limb(std::move(limb));
             }
         }

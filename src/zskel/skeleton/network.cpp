@@ -194,36 +194,41 @@ class Connector {
         return a;
     }
 
-    // Of each class the shortest, shortest first.
+    // All that could be laid inside, shortest first.
     std::vector<Cycle> find_cycles(const std::vector<std::uint32_t>& others) const {
         std::vector<Cycle> cycles;
         for (const std::uint32_t i : others) {
             const Connection& c = candidates_[i].connection;
+            if (!c.is_inside) continue;
             const std::uint64_t sum = candidates_[i].sum + places_[c.a].sum - places_[c.b].sum;
-            if (!c.is_inside || sum == 0) continue;
             const float length = c.length + places_[c.a].reach + places_[c.b].reach -
                                  2.0f * places_[meeting(c.a, c.b)].reach;
             cycles.push_back({i, length, std::min(sum, 0 - sum)});
         }
         std::stable_sort(cycles.begin(), cycles.end(),
                          [](const Cycle& l, const Cycle& r) { return l.length < r.length; });
-        std::set<std::uint64_t> known;
-        std::erase_if(cycles, [&](const Cycle& cycle) { return !known.insert(cycle.sum).second; });
         return cycles;
     }
 
+    // Of each class only the shortest need be looked at. Where the surface cuts through itself, the
+    // sums may not tell classes apart: then all are.
     bool add_cycles(const std::vector<std::uint32_t>& others,
                     std::vector<std::uint32_t>& spanning) {
         if (handles_.cycles() == 0) return true;
         walk_tree();
         CycleBasis basis(handles_);
-        for (const Cycle& cycle : find_cycles(others)) {
-            if (basis.is_complete()) break;
-            const Candidate& candidate = candidates_[cycle.candidate];
-            Class cls = class_of(candidate);
-            add_to(cls, places_[candidate.connection.a].cls, 1);
-            add_to(cls, places_[candidate.connection.b].cls, -1);
-            if (basis.extend(cls)) spanning.push_back(cycle.candidate);
+        const std::vector<Cycle> cycles = find_cycles(others);
+        std::set<std::uint64_t> known{0};
+        for (const bool trusts_sums : {true, false}) {
+            for (const Cycle& cycle : cycles) {
+                if (basis.is_complete()) return true;
+                if (trusts_sums && !known.insert(cycle.sum).second) continue;
+                const Candidate& candidate = candidates_[cycle.candidate];
+                Class cls = class_of(candidate);
+                add_to(cls, places_[candidate.connection.a].cls, 1);
+                add_to(cls, places_[candidate.connection.b].cls, -1);
+                if (basis.extend(cls)) spanning.push_back(cycle.candidate);
+            }
         }
         return basis.is_complete();
     }

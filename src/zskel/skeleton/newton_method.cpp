@@ -91,9 +91,10 @@ SolidSkeleton extract_by_newton(const Surface& surface, bool is_closed, Visibili
     progress.begin("seeds");
     const SurfaceQuery query(surface);
     const std::vector<float> thickness = vertex_thickness(surface, query);
-    const std::vector<Vec3> inner = inner_points(surface, thickness, options.seeds);
+    const std::vector<Vec3> starts = inner_points(surface, thickness, options.seeds);
+    const std::vector<Vec3> inner = walkable_points(surface, query, starts);
     const SeedSpread spread = spread_seeds(surface, thickness, options.spread);
-    for (const std::uint32_t v : spread.vertices) out.seeds.push_back({inner[v], v});
+    for (const std::uint32_t v : spread.vertices) out.seeds.push_back({starts[v], v});
     out.seed_spacing_thickness = spread.spacing_thickness;
     out.seed_end = spread.end;
     progress.begin("settle");
@@ -126,8 +127,8 @@ SolidSkeleton extract_by_newton(const Surface& surface, bool is_closed, Visibili
     for (int attempt = 0;; ++attempt) {
         Clusters clusters = cluster_minima(ends, joints, ranges);
         center_on_members(clusters, ends);
-        const ClusterContext context{surface, query, spread,    out.settled,
-                                     inner,   links, shortcuts, clusters};
+        const ClusterContext context{surface, query,     spread,   out.settled, inner,
+                                     links,   shortcuts, clusters, is_closed};
         const ClusterNetwork network = connect_network(context, handles);
         if (attempt < options.max_retries && split_rings(network, clusters, ranges)) continue;
         if (!network.has_all_cycles)

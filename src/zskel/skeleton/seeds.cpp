@@ -10,6 +10,60 @@ namespace {
 constexpr float kClearOfVertex =
     1e-5f;  // where the inward ray starts, past the vertex's own triangles
 
+constexpr int kMostHalvings = 8;
+constexpr int kMostTurns = 200;
+constexpr double kLeastInward = 0.05;  // cosine to a face's inside that will do
+
+// The vertices at edges between whose points the way is not free, ascending.
+std::vector<std::uint32_t> ends_of_unfree(std::span<const glm::uvec2> edges,
+                                          std::span<const Vec3> points, const SurfaceQuery& query) {
+    std::vector<std::uint8_t> is_unfree(edges.size());
+    parallel_for(edges.size(), 64, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t e = begin; e < end; ++e)
+            is_unfree[e] = query.first_hit(points[edges[e].x], points[edges[e].y]).has_value();
+    });
+    std::vector<std::uint32_t> ends;
+    for (std::size_t e = 0; e < edges.size(); ++e) {
+        if (is_unfree[e]) ends.insert(ends.end(), {edges[e].x, edges[e].y});
+    }
+    std::sort(ends.begin(), ends.end());
+    ends.erase(std::unique(ends.begin(), ends.end()), ends.end());
+    return ends;
+}
+
+// For each vertex a direction to the inner side of all its faces, if there is any, by turning the
+// reverse normal towards the inside of the face that it offends most (Rosenblatt's perceptron).
+std::vector<Vec3> directions_into(const Surface& surface, std::span<const std::uint32_t> vertices) {
+    std::vector<std::vector<DVec3>> inward(vertices.size());
+    for (const glm::uvec3& t : surface.triangles) {
+        const DVec3 a(surface.positions[t.x]);
+        const DVec3 normal =
+            glm::cross(DVec3(surface.positions[t.y]) - a, DVec3(surface.positions[t.z]) - a);
+        if (!(glm::length(normal) > 0.0)) continue;
+        for (int k = 0; k < 3; ++k) {
+            const auto at = std::lower_bound(vertices.begin(), vertices.end(), t[k]);
+            if (at != vertices.end() && *at == t[k])
+                inward[static_cast<std::size_t>(at - vertices.begin())].push_back(
+                    -glm::normalize(normal));
+        }
+    }
+    std::vector<Vec3> directions;
+    for (std::size_t i = 0; i < vertices.size(); ++i) {
+        DVec3 direction(-surface.vertex_normals[vertices[i]]);
+        const auto by_offence = [&](const DVec3& l, const DVec3& r) {
+            return glm::dot(l, direction) < glm::dot(r, direction);
+        };
+        for (int turn = 0; turn < kMostTurns && !inward[i].empty(); ++turn) {
+            const DVec3& worst = *std::min_element(inward[i].begin(), inward[i].end(), by_offence);
+            if (glm::dot(worst, direction) > kLeastInward * glm::length(direction)) break;
+            direction += worst;
+        }
+        const double length = glm::length(direction);
+        directions.push_back(length > 0.0 ? Vec3(direction / length) : Vec3(0.0f));
+    }
+    return directions;
+}
+
 }  // namespace
 
 std::vector<float> vertex_thickness(const Surface& surface, const SurfaceQuery& query) {
@@ -35,6 +89,24 @@ std::vector<Vec3> inner_points(const Surface& surface, std::span<const float> th
         points.push_back(surface.positions[v] - surface.vertex_normals[v] * offset);
     }
     return points;
+}
+
+std::vector<Vec3> walkable_points(const Surface& surface, const SurfaceQuery& query,
+                                  std::vector<Vec3> inner) {
+    const std::vector<std::uint32_t> stuck = ends_of_unfree(surface.edges, inner, query);
+    if (stuck.empty()) return inner;
+    const std::vector<Vec3> directions = directions_into(surface, stuck);
+    const std::vector<Vec3> first = inner;
+    for (std::size_t i = 0; i < stuck.size(); ++i) {
+        const Vec3& vertex = surface.positions[stuck[i]];
+        inner[stuck[i]] = vertex + directions[i] * glm::distance(inner[stuck[i]], vertex);
+    }
+    for (int halving = 0; halving < kMostHalvings; ++halving) {
+        for (const std::uint32_t v : ends_of_unfree(surface.edges, inner, query))
+            inner[v] = 0.5f * (inner[v] + surface.positions[v]);
+    }
+    for (const std::uint32_t v : ends_of_unfree(surface.edges, inner, query)) inner[v] = first[v];
+    return inner;
 }
 
 std::vector<Seed> place_seeds(const Surface& surface, const SurfaceQuery& query,

@@ -29,6 +29,12 @@ std::vector<float> vertex_thickness(const Surface& surface, const SurfaceQuery& 
 std::vector<Vec3> inner_points(const Surface& surface, std::span<const float> thickness,
                                const SeedOptions& options);
 
+/// The points, moved where the way between those of two neighbours is not free: first to the inner
+/// side of all faces at their vertices, then towards the vertices. Walks along the surface's edges
+/// stay inside; but a vertex that has no such side keeps its point.
+std::vector<Vec3> walkable_points(const Surface& surface, const SurfaceQuery& query,
+                                  std::vector<Vec3> inner);
+
 /// One seed inside each vertex.
 std::vector<Seed> place_seeds(const Surface& surface, const SurfaceQuery& query,
                               const SeedOptions& options);
