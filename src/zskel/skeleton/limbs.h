@@ -21,9 +21,9 @@ struct LimbOptions {
     double bare_product = 2.4;  ///< so much by the product,
     double bare_world = 0.12;   ///< or as far as this
     double fat_area = 3.0;      ///< a fat end has at least this area, in squares of its own depth,
-    double fat_depth = 0.35;    ///< a mean depth of this many of the body's girths,
+    double fat_depth = 0.38;    ///< a mean depth of this many of the body's girths,
     double fat_gain = 0.5;      ///< and brings this share of the area near to the skeleton,
-    double fat_roundness = 1.52;  ///< on a body whose girth is at most so many of its radii
+    double fat_roundness = 1.53;  ///< on a body whose girth is at most so many of its radii
 };
 
 /// What of a network is skeleton.
