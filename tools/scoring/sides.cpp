@@ -9,6 +9,7 @@ CurveSides::CurveSides(const Subject& subject, const SkeletonGraph& graph)
     DisjointSets sets(graph.nodes.size());
     for (const SkeletonGraph::Edge& edge : graph.edges) {
         const bool is_free =
+            subject.is_closed() &&
             subject.is_free(graph.nodes[edge.source].position, graph.nodes[edge.target].position);
         edge_free_.push_back(is_free);
         if (is_free) sets.unite(edge.source, edge.target);

@@ -9,7 +9,7 @@
 namespace zskel::scoring {
 
 /// Which parts of a skeleton lie inside a model. Winding numbers are found at few nodes only: along
-/// an edge that meets no surface nothing changes.
+/// an edge that meets no surface nothing changes, unless the model has openings.
 class CurveSides {
   public:
     /// Both must outlive this; `graph` in diagonals.

@@ -1,5 +1,7 @@
 #include "scoring/subject.h"
 
+#include <algorithm>
+
 #include "zskel/mesh/check.h"
 
 namespace zskel::scoring {
@@ -42,7 +44,9 @@ Subject::Subject(const Mesh& mesh) : Subject(mesh, split_solids(prepare_surface(
 Subject::Subject(const Mesh& mesh, const std::vector<Solid>& solids)
     : surface_(surface_in_diagonals(solids)),
       query_(surface_),
-      expected_components_(solids.size()) {
+      expected_components_(solids.size()),
+      is_closed_(std::all_of(solids.begin(), solids.end(),
+                             [](const Solid& solid) { return solid.is_closed; })) {
     const MeshReport report = check_mesh(mesh);
     if (report.genus) expected_cycles_ = static_cast<std::size_t>(*report.genus);
 }

@@ -26,6 +26,9 @@ class Subject {
     const Surface& surface() const { return surface_; }
     /// One a solid; cavities are part of theirs.
     std::size_t expected_components() const { return expected_components_; }
+    /// Whether every solid is; only then one side of the surface leads to the other through it
+    /// alone.
+    bool is_closed() const { return is_closed_; }
     /// Handles of the surface; none where it has no genus (edges with three faces, one-sided).
     std::optional<std::size_t> expected_cycles() const { return expected_cycles_; }
 
@@ -47,6 +50,7 @@ class Subject {
     Surface surface_;
     SurfaceQuery query_;
     std::size_t expected_components_;
+    bool is_closed_;
     std::optional<std::size_t> expected_cycles_;
 };
 
