@@ -1,25 +1,12 @@
 #pragma once
 
-#include <cstdint>
-#include <vector>
+#include <cstddef>
+#include <span>
 
-#include "zskel/skeleton/limbs.h"
-#include "zskel/skeleton/network.h"
+#include "zskel/skeleton/curve_graph.h"
 #include "zskel/visibility/surface_query.h"
 
 namespace zskel {
-
-/// A skeleton of one solid while it is worked on, world space.
-struct CurveGraph {
-    struct Node {
-        Vec3 position{0.0f};
-        float radius = 0.0f;               ///< inscribed
-        std::vector<std::uint32_t> links;  ///< neighbours
-        std::vector<std::uint32_t> seeds;  ///< that came to rest here: their surface belongs to it
-        bool is_removed = false;
-    };
-    std::vector<Node> nodes;
-};
 
 struct RefineOptions {
     double merge_radii = 0.5;          ///< junctions nearer than this become one
@@ -44,11 +31,8 @@ struct RefineReport {
     std::size_t extended_ends = 0;
 };
 
-/// Nodes at the kept clusters' centres and along their connections' paths.
-CurveGraph build_graph(const ClusterContext& context, std::span<const Connection> connections,
-                       const Limbs& limbs);
-
-/// Merges junctions, extends ends to the tips, and centres and smooths the branches.
+/// Merges junctions, extends ends to the tips, centres and smooths the branches, and sends ends
+/// straight on.
 /// No segment that was free is left unfree, and cycles stay.
 /// @param seed_points  where every seed's vertex is on the surface.
 RefineReport refine_graph(CurveGraph& graph, std::span<const Vec3> seed_points,

@@ -1,0 +1,128 @@
+#include "zskel/skeleton/centring.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "zskel/core/parallel.h"
+#include "zskel/skeleton/section.h"
+
+namespace zskel {
+namespace {
+
+class Centring {
+  public:
+    Centring(CurveGraph& graph, const SurfaceQuery& query, const RefineOptions& options)
+        : graph_(graph), query_(query), options_(options) {}
+
+    void run() {
+        for (int i = 0; i < options_.smoothing_sweeps; ++i) smooth(options_.smoothing);
+        weigh_centring();
+        for (int i = 0; i < options_.sweeps; ++i) {
+            centre();
+            smooth(options_.smoothing);
+            smooth(-options_.unshrink);
+        }
+    }
+
+  private:
+    using Node = CurveGraph::Node;
+
+    // One pass over all nodes but the ends: each towards the middle of its neighbours, or away from
+    // it where `share` is negative. A move that would leave the solid is not made.
+    void smooth(double share) {
+        std::vector<std::pair<std::uint32_t, Vec3>> targets;
+        for (std::uint32_t n = 0; n < graph_.nodes.size(); ++n) {
+            const Node& node = graph_.nodes[n];
+            if (node.is_removed || node.links.size() < 2) continue;
+            DVec3 middle(0.0);
+            for (const std::uint32_t other : node.links) middle += DVec3(graph_.at(other));
+            middle /= static_cast<double>(node.links.size());
+            // A junction is held by its branches; the smoothing alone would drag it to the longest.
+            const double held = node.links.size() > 2 ? 0.3 : 1.0;
+            const DVec3 here(node.position);
+            targets.emplace_back(n, Vec3(here + (middle - here) * (share * held)));
+        }
+        move(targets);
+    }
+
+    // How much each node within a branch is centred: little next to junctions.
+    void weigh_centring() {
+        centring_.assign(graph_.nodes.size(), 0.0f);
+        for (const std::vector<std::uint32_t>& branch : graph_.branches()) {
+            for (const std::uint32_t n : branch) {
+                if (graph_.nodes[n].links.size() == 2)
+                    centring_[n] = static_cast<float>(options_.centring);
+            }
+            fade_centring(branch.begin(), branch.end());
+            fade_centring(branch.rbegin(), branch.rend());
+        }
+    }
+
+    template <typename Iterator>
+    void fade_centring(Iterator first, Iterator last) {
+        const Node& junction = graph_.nodes[*first];
+        if (junction.links.size() < 3) return;
+        const float reach = static_cast<float>(options_.junction_radii) *
+                            query_.nearest(junction.position).distance;
+        for (; first != last; ++first) {
+            const float away = glm::distance(graph_.at(*first), junction.position);
+            if (away >= reach) return;
+            centring_[*first] *= (away / reach) * (away / reach);
+        }
+    }
+
+    // One pass over all nodes within branches, each towards the centre of its section.
+    void centre() {
+        std::vector<std::pair<std::uint32_t, Vec3>> targets;
+        for (std::uint32_t n = 0; n < graph_.nodes.size(); ++n) {
+            if (centring_[n] > 0.0f) targets.emplace_back(n, Vec3(0.0f));
+        }
+        parallel_for(targets.size(), 4, [&](std::size_t begin, std::size_t end) {
+            for (std::size_t i = begin; i < end; ++i) targets[i].second = centred(targets[i].first);
+        });
+        move(targets);
+    }
+
+    Vec3 centred(std::uint32_t n) const {
+        const Node& node = graph_.nodes[n];
+        const Vec3 chord = ahead_of(n, node.links[1]) - ahead_of(n, node.links[0]);
+        if (!(glm::length(chord) > 0.0f)) return node.position;
+        const Vec3 step =
+            step_to_section_centre(query_, node.position, glm::normalize(chord)) * centring_[n];
+        const float longest = static_cast<float>(options_.longest_move_radii) *
+                              query_.nearest(node.position).distance;
+        const float length = glm::length(step);
+        return node.position + (length > longest ? step * (longest / length) : step);
+    }
+
+    // A point of the branch two nodes on from `n` over its neighbour `next`.
+    const Vec3& ahead_of(std::uint32_t n, std::uint32_t next) const {
+        const auto& links = graph_.nodes[next].links;
+        if (links.size() != 2) return graph_.at(next);
+        return graph_.nodes[links[0] == n ? links[1] : links[0]].position;
+    }
+
+    void move(const std::vector<std::pair<std::uint32_t, Vec3>>& targets) {
+        for (const auto& [n, target] : targets) {
+            Node& node = graph_.nodes[n];
+            const Vec3& to = target;
+            const bool stays = std::all_of(
+                node.links.begin(), node.links.end(),
+                [&](std::uint32_t other) { return !query_.first_hit(graph_.at(other), to); });
+            if (stays) node.position = to;
+        }
+    }
+
+    CurveGraph& graph_;
+    const SurfaceQuery& query_;
+    const RefineOptions& options_;
+    std::vector<float> centring_;  // of every node: share of the way that a sweep takes
+};
+
+}  // namespace
+
+void centre_branches(CurveGraph& graph, const SurfaceQuery& query, const RefineOptions& options) {
+    Centring(graph, query, options).run();
+}
+
+}  // namespace zskel

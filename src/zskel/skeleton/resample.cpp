@@ -1,0 +1,114 @@
+#include "zskel/skeleton/resample.h"
+
+#include <algorithm>
+
+#include "zskel/skeleton/path.h"
+
+namespace zskel {
+namespace {
+
+class Resampler {
+  public:
+    Resampler(CurveGraph& graph, std::span<const Vec3> seed_points, const SurfaceQuery& query,
+              const RefineOptions& options)
+        : graph_(graph), seed_points_(seed_points), query_(query), options_(options) {}
+
+    void run() {
+        for (const std::vector<std::uint32_t>& branch : graph_.branches()) {
+            std::vector<Vec3> line;
+            std::vector<std::uint32_t> seeds;
+            for (std::size_t i = 0; i < branch.size(); ++i) {
+                CurveGraph::Node& node = graph_.nodes[branch[i]];
+                line.push_back(node.position);
+                if (i == 0 || i + 1 == branch.size()) continue;
+                seeds.insert(seeds.end(), node.seeds.begin(), node.seeds.end());
+                node.is_removed = true;
+            }
+            for (std::size_t i = 1; i < branch.size(); ++i) graph_.unlink(branch[i - 1], branch[i]);
+            lay_nodes(branch.front(), branch.back(), line, seeds);
+        }
+    }
+
+  private:
+    // Where there is hardly any thickness (open sheets), there is nothing to follow closely.
+    double spacing_at(float radius) const {
+        const auto r = static_cast<double>(radius);
+        if (r < 0.25 * options_.min_spacing_world) return options_.max_spacing_world;
+        return std::clamp(r, options_.min_spacing_world, options_.max_spacing_world);
+    }
+
+    void lay_nodes(std::uint32_t first, std::uint32_t last, const std::vector<Vec3>& line,
+                   const std::vector<std::uint32_t>& seeds) {
+        std::vector<std::uint32_t> chain{first};
+        for (const Vec3& point : even_points(line, needed_pieces(first, last)))
+            chain.push_back(graph_.add(point, query_.nearest(point).distance));
+        chain.push_back(last);
+        for (std::size_t i = 1; i < chain.size(); ++i) graph_.link(chain[i - 1], chain[i]);
+        for (const std::uint32_t s : seeds) {
+            const Vec3& p = seed_points_[s];
+            const std::uint32_t nearest =
+                *std::min_element(chain.begin(), chain.end(), [&](auto l, auto r) {
+                    return glm::distance(graph_.at(l), p) < glm::distance(graph_.at(r), p);
+                });
+            graph_.nodes[nearest].seeds.push_back(s);
+        }
+    }
+
+    // A ring needs three nodes and the second of two branches between the same junctions one of its
+    // own.
+    int needed_pieces(std::uint32_t first, std::uint32_t last) const {
+        const auto& links = graph_.nodes[first].links;
+        if (first == last) return 3;
+        return std::find(links.begin(), links.end(), last) != links.end() ? 2 : 1;
+    }
+
+    // Points within the line, one local spacing apart. Corners stay where the shortcut past them is
+    // not free.
+    std::vector<Vec3> even_points(const std::vector<Vec3>& line, int least_pieces) const {
+        const float longest = length_of(line) / static_cast<float>(least_pieces);
+        std::vector<Vec3> points;
+        Vec3 at = line.front();
+        std::size_t next = 1;
+        while (true) {
+            const float spacing =
+                std::min(longest, static_cast<float>(spacing_at(query_.nearest(at).distance)));
+            Vec3 here = at;
+            float left = spacing;
+            std::size_t segment = next;
+            while (segment < line.size() && glm::distance(here, line[segment]) <= left) {
+                left -= glm::distance(here, line[segment]);
+                here = line[segment++];
+            }
+            const bool is_last = segment >= line.size() ||
+                                 (segment + 1 == line.size() &&
+                                  glm::distance(here, line.back()) < left + 0.5f * spacing &&
+                                  points.size() + 1 >= static_cast<std::size_t>(least_pieces));
+            Vec3 target = is_last ? line.back()
+                                  : here + (line[segment] - here) *
+                                               (left / glm::distance(here, line[segment]));
+            if (query_.first_hit(at, target) && next < line.size() - (is_last ? 1 : 0) &&
+                line[next] != at && segment > next) {
+                target = line[next++];
+                points.push_back(at = target);
+                continue;
+            }
+            if (is_last) return points;
+            next = segment;
+            points.push_back(at = target);
+        }
+    }
+
+    CurveGraph& graph_;
+    std::span<const Vec3> seed_points_;
+    const SurfaceQuery& query_;
+    const RefineOptions& options_;
+};
+
+}  // namespace
+
+void resample_branches(CurveGraph& graph, std::span<const Vec3> seed_points,
+                       const SurfaceQuery& query, const RefineOptions& options) {
+    Resampler(graph, seed_points, query, options).run();
+}
+
+}  // namespace zskel
