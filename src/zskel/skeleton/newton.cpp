@@ -138,13 +138,7 @@ class NewtonWalk {
 std::vector<SettledSeed> settle_seeds_newton(VisibilitySource& source, std::span<const Seed> seeds,
                                              const NewtonOptions& options,
                                              const SettleProgress& progress) {
-    const NewtonWalk walk(options);
-    return walk_to_rest<Walker>(
-        source, seeds,
-        [&](Walker& walker, SettledSeed& seed, const EyeRecord& met) {
-            return walk.advance(walker, seed, met);
-        },
-        progress);
+    return walk_to_rest<Walker>(source, seeds, NewtonWalk(options), progress);
 }
 
 }  // namespace zskel

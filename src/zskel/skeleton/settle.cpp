@@ -71,13 +71,7 @@ std::string_view name_of(SeedState state) {
 std::vector<SettledSeed> settle_seeds(VisibilitySource& source, std::span<const Seed> seeds,
                                       const PaperStepOptions& options,
                                       const SettleProgress& progress) {
-    const PaperWalk walk(options);
-    return walk_to_rest<Walker>(
-        source, seeds,
-        [&](Walker& walker, SettledSeed& seed, const EyeRecord& met) {
-            return walk.advance(walker, seed, met);
-        },
-        progress);
+    return walk_to_rest<Walker>(source, seeds, PaperWalk(options), progress);
 }
 
 }  // namespace zskel

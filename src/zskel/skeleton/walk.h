@@ -13,11 +13,11 @@ inline constexpr float kLeastBackFraction = 0.5f;
 
 /// Lets all seeds look together, one batch a round, until each is at rest.
 /// @tparam Walker  a seed on its way: `index`, and the point `tried` that it waits to look from.
-/// @param advance  bool(Walker&, SettledSeed&, const EyeRecord&): judges what was met at `tried`;
-/// true when the seed goes on.
-template <typename Walker, typename Advance>
+/// @tparam Walk    has `bool advance(Walker&, SettledSeed&, const EyeRecord&) const`, which judges
+///                 what was met at `tried`; true when the seed goes on.
+template <typename Walker, typename Walk>
 std::vector<SettledSeed> walk_to_rest(VisibilitySource& source, std::span<const Seed> seeds,
-                                      Advance advance, const SettleProgress& progress) {
+                                      const Walk& walk, const SettleProgress& progress) {
     std::vector<SettledSeed> settled(seeds.size());
     std::vector<Walker> walkers(seeds.size());
     for (std::uint32_t i = 0; i < seeds.size(); ++i) {
@@ -36,7 +36,7 @@ std::vector<SettledSeed> walk_to_rest(VisibilitySource& source, std::span<const 
         for (std::size_t i = 0; i < walkers.size(); ++i) {
             SettledSeed& seed = settled[walkers[i].index];
             ++seed.evaluations;
-            if (advance(walkers[i], seed, records[i])) walkers[kept++] = walkers[i];
+            if (walk.advance(walkers[i], seed, records[i])) walkers[kept++] = walkers[i];
         }
         walkers.resize(kept);
         if (progress) progress(1.0 - static_cast<double>(kept) / all);
