@@ -220,11 +220,7 @@ Mesh bow_tie(std::uint32_t shared) {
     for (DVec3& p : other.positions) p = DVec3(-p.x, -p.y, p.z);
     other.positions[0] = mesh.positions[0];
     if (shared < 2) other.positions[1] = {-0.2, -0.2, 1};
-    const auto fine = [](const Mesh& m) {
-        return test::subdivided(test::subdivided(m, [](auto p) { return p; }),
-                                [](auto p) { return p; });
-    };
-    return test::together(fine(mesh), fine(other));
+    return test::together(test::finer(mesh), test::finer(other));
 }
 
 constexpr const char* kOpen = "1 of 1 parts are not closed: the skeleton of each is in one piece";

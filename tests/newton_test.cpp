@@ -42,10 +42,7 @@ double inside_share(const ExtractResult& result) {
 }  // namespace
 
 TEST_CASE("newton: a ball and a cube are one node at the centre") {
-    for (const Mesh& mesh :
-         {test::sphere(0.5, 3),
-          test::subdivided(test::subdivided(test::cube(), [](auto p) { return p; }),
-                           [](auto p) { return p; })}) {
+    for (const Mesh& mesh : {test::sphere(0.5, 3), test::finer(test::cube())}) {
         const ExtractResult result = test::extract(mesh);
         REQUIRE(result.graph.nodes.size() == 1);
         CHECK(glm::length(result.graph.nodes[0].position) < 0.02);
@@ -113,9 +110,7 @@ TEST_CASE(
 }
 
 TEST_CASE("newton: a flat end is left through its middle, not at a corner") {
-    const Mesh box = test::subdivided(test::subdivided(test::cube(), [](auto p) { return p; }),
-                                      [](auto p) { return p; });
-    Mesh beam = box;
+    Mesh beam = test::finer(test::cube());
     for (DVec3& p : beam.positions) p = DVec3(0.2 * p.x, 0.2 * p.y, p.z);
     const ExtractResult result = test::extract(beam);
     CHECK(count_ends(result.graph) == 2);

@@ -58,6 +58,12 @@ Mesh subdivided(const Mesh& coarse, Place place) {
     return fine;
 }
 
+/// The same shape, every triangle in sixteen.
+inline Mesh finer(const Mesh& mesh) {
+    const auto stay = [](const DVec3& p) { return p; };
+    return subdivided(subdivided(mesh, stay), stay);
+}
+
 /// A sphere about the origin: a cube's faces, subdivided and pushed out. 12 * 4^levels triangles.
 inline Mesh sphere(double radius = 0.5, int levels = 4) {
     const auto push_out = [&](const DVec3& p) { return glm::normalize(p) * radius; };

@@ -1,6 +1,7 @@
 #include "zskel/skeleton/seeds.h"
 
 #include <algorithm>
+#include <iterator>
 
 #include "zskel/core/parallel.h"
 
@@ -97,15 +98,27 @@ std::vector<Vec3> walkable_points(const Surface& surface, const SurfaceQuery& qu
     if (stuck.empty()) return inner;
     const std::vector<Vec3> directions = directions_into(surface, stuck);
     const std::vector<Vec3> first = inner;
+    std::vector<bool> has_moved(inner.size(), false);
     for (std::size_t i = 0; i < stuck.size(); ++i) {
         const Vec3& vertex = surface.positions[stuck[i]];
         inner[stuck[i]] = vertex + directions[i] * glm::distance(inner[stuck[i]], vertex);
+        has_moved[stuck[i]] = true;
     }
+    // The way along any other edge is as free as it was at first.
+    const auto still_stuck = [&] {
+        std::vector<glm::uvec2> edges;
+        std::copy_if(
+            surface.edges.begin(), surface.edges.end(), std::back_inserter(edges),
+            [&](const glm::uvec2& edge) { return has_moved[edge.x] || has_moved[edge.y]; });
+        return ends_of_unfree(edges, inner, query);
+    };
     for (int halving = 0; halving < kMostHalvings; ++halving) {
-        for (const std::uint32_t v : ends_of_unfree(surface.edges, inner, query))
+        for (const std::uint32_t v : still_stuck()) {
             inner[v] = 0.5f * (inner[v] + surface.positions[v]);
+            has_moved[v] = true;
+        }
     }
-    for (const std::uint32_t v : ends_of_unfree(surface.edges, inner, query)) inner[v] = first[v];
+    for (const std::uint32_t v : still_stuck()) inner[v] = first[v];
     return inner;
 }
 
