@@ -114,7 +114,9 @@ TEST_CASE(
         CHECK(glm::length(seed.position) <= options.step_world);
         CHECK(seed.path.size() == seed.steps + 1);
         CHECK(seed.path.back() == seed.position);
-        CHECK(seed.evaluations == seed.steps + 2);
+        // The start, every step, and the step beyond, unless no force is left there.
+        CHECK(seed.evaluations >= seed.steps + 1);
+        CHECK(seed.evaluations <= seed.steps + 2);
     }
 }
 

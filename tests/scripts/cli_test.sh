@@ -402,7 +402,6 @@ assert (o["method"], o["backend"], o["face_px"]) == ("paper", "ray", 4), o
 assert o["step_world"] == 0.02, o
 b = p["backend"]
 assert b["name"] == "ray" and b["vendor"] and b["renderer"] and b["version"] and b["failed"] == []
-assert b["is_fallback"] is False
 assert p["world_from_model"]["scale"] > 0 and len(p["world_from_model"]["center"]) == 3
 for seed in s["seeds"]:
     assert seed["path"][0] == seed["start"] and seed["path"][-1] == seed["end"]
@@ -435,18 +434,17 @@ case_no_backend() {
     (($? == 4)) || fail "not refused at once"
     only_files . cube.obj nothing nothing/libOSMesa.so{,.6,.8} out err
     run 0 extract cube.obj --method paper --face-px 4 --step 0.02 -o a.json
-    grep -q '^zskel: warning: .*rays' err || fail "no warning that rays are taken"
     /usr/bin/python3 - <<'END' || fail "the JSON does not say so"
 import json
 backend = json.load(open("a.json"))["provenance"]["backend"]
-assert backend["name"] == "ray" and backend["is_fallback"] is True
-assert backend["failed"] and all(f["candidate"] and f["reason"] for f in backend["failed"])
+assert backend["name"] == "cpu" and backend["failed"] == []
 END
     run 0 doctor --json
     /usr/bin/python3 - <<'END' || fail "doctor does not say so"
 import json
 found = json.load(open("out"))
-assert found["auto_takes"] == "ray" and found["candidates"]
+assert found["auto_takes"] == "cpu" and found["gl_takes"] is None and found["candidates"]
+assert found["cpu"]["instruction_set"]
 assert all(not c["usable"] and c["reason"] and c["advice"] for c in found["candidates"])
 END
 }
@@ -518,21 +516,21 @@ case_check_failed() {
 case_gl_backends() {
     run 0 doctor --json
     local taken backend
-    taken=$(/usr/bin/python3 -c 'import json; print(json.load(open("out"))["auto_takes"])')
-    if [[ $taken == ray ]]; then
+    taken=$(/usr/bin/python3 -c 'import json; print(json.load(open("out"))["gl_takes"])')
+    if [[ $taken == None ]]; then
         [[ ${ZSKEL_REQUIRE_GL:-} == 1 ]] && fail "no GL context, though ZSKEL_REQUIRE_GL=1"
         say "skipped: no GL context"
         ((failures)) && exit 1
         exit 77
     fi
-    for backend in auto gl; do
+    for backend in gl egl; do
+        [[ $taken == osmesa && $backend == egl ]] && continue
         run 0 extract cube.obj --method paper --backend "$backend" --face-px 4 --step 0.05 -o a.json \
             --picture a.png --picture-width 64 --picture-height 48
         /usr/bin/python3 - "$taken" <<'END' || fail "the JSON or the picture is not as promised"
 import json, struct, sys
 backend = json.load(open("a.json"))["provenance"]["backend"]
 assert backend["name"] == sys.argv[1] and backend["renderer"] and backend["version"], backend
-assert backend["is_fallback"] is False
 png = open("a.png", "rb").read()
 assert png[:8] == b"\x89PNG\r\n\x1a\n" and struct.unpack(">II", png[16:24]) == (64, 48)
 END

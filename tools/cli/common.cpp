@@ -81,8 +81,8 @@ void add_backend_options(CLI::App& command, BackendOptions& options) {
         .add_option_function<std::string>(
             "--backend",
             [&options](const std::string& name) { options.kind = parse_backend(name); },
-            "auto: the first GL context that works, else rays; gl: GL only; egl; osmesa; "
-            "ray: Embree; brute: every ray against every triangle")
+            "auto: the CPU's Z-buffer, or GL when --gpu is given; cpu; gl: the first GL context "
+            "that works; egl; osmesa; ray: Embree; brute: every ray against every triangle")
         ->type_name("NAME");
     command.add_option("--gpu", options.gpu, "Take the hardware device of this number")
         ->check(CLI::Range(0, 1 << 16));

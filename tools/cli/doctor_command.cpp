@@ -4,6 +4,7 @@
 #include <nlohmann/json.hpp>
 
 #include "command.h"
+#include "zskel/visibility/cpu_source.h"
 
 namespace zskel::cli {
 namespace {
@@ -57,8 +58,7 @@ ExitCode diagnose(bool as_json) {
     const std::vector<gl::Diagnosis> all = gl::diagnose_contexts({});
     const auto first =
         std::find_if(all.begin(), all.end(), [](const gl::Diagnosis& d) { return d.usable; });
-    const std::string taken =
-        first == all.end() ? "ray" : std::string(gl::name_of(first->info.kind));
+    const std::string taken = first == all.end() ? "" : std::string(gl::name_of(first->info.kind));
     if (as_json) {
         Json candidates = Json::array();
         for (const gl::Diagnosis& found : all) candidates.push_back(to_json(found));
@@ -67,14 +67,20 @@ ExitCode diagnose(bool as_json) {
             {"needs",
              {{"opengl", "4.5 core"}, {"extension", "GL_ARB_shader_viewport_layer_array"}}},
             {"candidates", candidates},
-            {"auto_takes", taken}};
+            {"gl_takes", taken.empty() ? Json(nullptr) : Json(taken)},
+            {"cpu", {{"instruction_set", cpu_instruction_set()}}},
+            {"auto_takes", "cpu"}};
         print(out.dump(2) + "\n");
         return ExitCode::Ok;
     }
     std::string text =
         "GL contexts (OpenGL 4.5 core with GL_ARB_shader_viewport_layer_array is needed):\n";
     for (const gl::Diagnosis& found : all) text += to_text(found);
-    text += fmt::format("Rays (Embree) always work.\n--backend auto takes: {}\n", taken);
+    text += fmt::format("--backend gl takes: {}\n", taken.empty() ? "nothing; it fails" : taken);
+    text += fmt::format(
+        "The CPU's Z-buffer (registers: {}) and rays (Embree) always work.\n"
+        "--backend auto takes: cpu\n",
+        cpu_instruction_set());
     print(text);
     return ExitCode::Ok;
 }

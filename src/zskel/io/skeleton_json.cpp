@@ -177,7 +177,6 @@ Json provenance_json(const Provenance& provenance, const Similarity& world) {
               {"vendor", provenance.backend.vendor},
               {"renderer", provenance.backend.renderer},
               {"version", provenance.backend.version},
-              {"is_fallback", provenance.backend.is_fallback},
               {"failed", failed}}},
             {"world_from_model", {{"center", point(world.center)}, {"scale", world.scale}}}};
 }

@@ -7,7 +7,7 @@
 #include <utility>
 
 #include "zskel/core/error.h"
-#include "zskel/core/log.h"
+#include "zskel/visibility/cpu_source.h"
 #include "zskel/visibility/cube_map.h"
 #include "zskel/visibility/raster_source.h"
 #include "zskel/visibility/ray_source.h"
@@ -15,11 +15,12 @@
 namespace zskel {
 namespace {
 
-constexpr std::array<std::pair<BackendKind, std::string_view>, 6> kNames{{
+constexpr std::array<std::pair<BackendKind, std::string_view>, 7> kNames{{
     {BackendKind::Auto, "auto"},
     {BackendKind::Gl, "gl"},
     {BackendKind::Egl, "egl"},
     {BackendKind::Osmesa, "osmesa"},
+    {BackendKind::Cpu, "cpu"},
     {BackendKind::Ray, "ray"},
     {BackendKind::Brute, "brute"},
 }};
@@ -52,6 +53,17 @@ class RayBackend : public Backend {
     RayMethod method_;
 };
 
+class CpuBackend : public Backend {
+  public:
+    CpuBackend(BackendInfo info, int face_px) : Backend(std::move(info)), face_px_(face_px) {}
+    std::unique_ptr<VisibilitySource> prepare(const Surface& solid) override {
+        return make_cpu_source(solid, face_px_);
+    }
+
+  private:
+    int face_px_;
+};
+
 bool is_ray(BackendKind kind) {
     return kind == BackendKind::Ray || kind == BackendKind::Brute;
 }
@@ -77,6 +89,15 @@ std::unique_ptr<Backend> open_rays(const BackendOptions& options, BackendInfo in
                                         brute ? RayMethod::BruteForce : RayMethod::Embree);
 }
 
+std::unique_ptr<Backend> open_cpu(const BackendOptions& options, BackendInfo info) {
+    info.name = "cpu";
+    info.vendor = "zskel";
+    info.renderer = fmt::format("Z-buffer, {}", cpu_instruction_set());
+    info.version = ZSKEL_VERSION;
+    info.is_raster = true;
+    return std::make_unique<CpuBackend>(std::move(info), options.face_px);
+}
+
 std::string reasons(const std::vector<gl::FailedAttempt>& failed) {
     std::string text;
     for (const gl::FailedAttempt& attempt : failed) {
@@ -92,7 +113,8 @@ void check_options(const BackendOptions& options) {
             "--rays goes with --backend ray or brute; {} samples a cube map (--face-px)",
             name_of(options.kind)));
     }
-    const bool no_gpu = is_ray(options.kind) || options.kind == BackendKind::Osmesa;
+    const bool no_gpu = is_ray(options.kind) || options.kind == BackendKind::Cpu ||
+                        options.kind == BackendKind::Osmesa;
     if (options.gpu >= 0 && no_gpu) {
         throw UsageError(fmt::format("--gpu goes with a GL backend on hardware, not with {}",
                                      name_of(options.kind)));
@@ -107,7 +129,7 @@ BackendKind parse_backend(std::string_view name) {
         if (known == name) return kind;
     }
     throw UsageError(
-        fmt::format("unknown backend '{}': auto, gl, egl, osmesa, ray or brute", name));
+        fmt::format("unknown backend '{}': auto, gl, egl, osmesa, cpu, ray or brute", name));
 }
 
 std::string_view name_of(BackendKind kind) {
@@ -120,23 +142,20 @@ std::string_view name_of(BackendKind kind) {
 std::unique_ptr<Backend> open_backend(const BackendOptions& options) {
     check_options(options);
     BackendInfo info;
-    if (is_ray(options.kind)) return open_rays(options, info);
+    if (is_ray(options.kind)) return open_rays(options, std::move(info));
+    const bool automatic = options.kind == BackendKind::Auto && options.gpu < 0;
+    if (automatic || options.kind == BackendKind::Cpu) return open_cpu(options, std::move(info));
     std::unique_ptr<gl::Context> context = gl::open_context(request_for(options), info.failed);
-    if (context != nullptr) {
-        info.name = gl::name_of(context->info().kind);
-        info.vendor = context->info().vendor;
-        info.renderer = context->info().renderer;
-        info.version = context->info().version;
-        info.is_raster = true;
-        return std::make_unique<GlBackend>(std::move(info), std::move(context), options.face_px);
-    }
-    if (options.kind != BackendKind::Auto || options.gpu >= 0) {
+    if (context == nullptr) {
         throw GlError(fmt::format("backend {} cannot be used: {} (see zskel doctor)",
                                   name_of(options.kind), reasons(info.failed)));
     }
-    log_warning("no GL context ({}): rays are traced instead", reasons(info.failed));
-    info.is_fallback = true;
-    return open_rays(options, std::move(info));
+    info.name = gl::name_of(context->info().kind);
+    info.vendor = context->info().vendor;
+    info.renderer = context->info().renderer;
+    info.version = context->info().version;
+    info.is_raster = true;
+    return std::make_unique<GlBackend>(std::move(info), std::move(context), options.face_px);
 }
 
 std::unique_ptr<gl::Context> open_picture_context(int gpu) {

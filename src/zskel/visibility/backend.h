@@ -12,10 +12,11 @@ namespace zskel {
 
 /// Where visibility comes from.
 enum class BackendKind {
-    Auto,  ///< the first GL context that works; rays, with a warning, when none does
+    Auto,  ///< the fastest: the CPU's Z-buffer; GL when a GPU is asked for by its number
     Gl,    ///< the first GL context that works
     Egl,   ///< the same, without OSMesa
     Osmesa,
+    Cpu,    ///< our own Z-buffer, no GL
     Ray,    ///< Embree
     Brute,  ///< every ray against every triangle, as the paper did: for comparison only
 };
@@ -32,13 +33,12 @@ struct BackendOptions {
 
 /// What answers, and why others did not.
 struct BackendInfo {
-    std::string name;  ///< egl-hardware, egl-software, egl-surfaceless, osmesa, ray, brute
+    std::string name;  ///< egl-hardware, egl-software, egl-surfaceless, osmesa, cpu, ray, brute
     std::string vendor;
     std::string renderer;
     std::string version;
     std::vector<gl::FailedAttempt> failed;  ///< candidates tried before it
     bool is_raster = false;                 ///< a Z-buffer, not rays
-    bool is_fallback = false;               ///< `auto` found no GL context and took rays
 };
 
 /// An opened backend: prepares one source a solid. Sources must not outlive it. One call at a time,

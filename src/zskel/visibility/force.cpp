@@ -6,8 +6,6 @@
 namespace zskel {
 namespace {
 
-constexpr double kGrazingCosine = 0.2;
-constexpr double kAheadCosine = 0.8;
 // An eye on the surface meets it at distance 0; its force is then huge, but finite.
 constexpr double kLeastDistance = 1e-12;
 
@@ -56,7 +54,7 @@ EyeRecord summarize(const Directions& directions, const MapView& map, const Surf
         double facing = glm::dot(n, d);
         if (facing > 0.0) back += directions.weight[i];
         if (facing < 0.0) n = -n;
-        facing = std::max(std::abs(facing), kGrazingCosine);
+        facing = std::max(std::abs(facing), double{kGrazingCosine});
         const DVec3 g = n * (directions.weight[i] / (r * r * facing));
         jacobian[0] += d.x * g.x;
         jacobian[1] += d.y * g.y;

@@ -45,6 +45,11 @@ struct EyeRecord {
 };
 static_assert(sizeof(EyeRecord) == 52);
 
+/// "Ahead" is within this cosine of the force.
+inline constexpr float kAheadCosine = 0.8f;
+/// Grazing samples count in the Jacobian as if they met the surface at this cosine.
+inline constexpr float kGrazingCosine = 0.2f;
+
 /// Reduces a map to its record. The Jacobian holds the visible set fixed: with a plane n.p = h seen
 /// along D, 1/r = g.D for g = n/h, and the eye's move dx changes g by g (g.dx). n.D is floored at
 /// 0.2 for grazing samples.

@@ -1,0 +1,30 @@
+#pragma once
+
+#include <cstddef>
+#include <new>
+#include <vector>
+
+namespace zskel {
+
+/// Hands out memory that whole SIMD registers can be loaded from.
+template <typename T>
+struct CacheLineAllocator {
+    using value_type = T;
+    static constexpr std::align_val_t kAlignment{64};
+
+    CacheLineAllocator() = default;
+    template <typename U>
+    explicit CacheLineAllocator(const CacheLineAllocator<U>& /*other*/) {}
+
+    T* allocate(std::size_t count) {
+        return static_cast<T*>(::operator new(count * sizeof(T), kAlignment));
+    }
+    void deallocate(T* memory, std::size_t /*count*/) { ::operator delete(memory, kAlignment); }
+
+    friend bool operator==(const CacheLineAllocator&, const CacheLineAllocator&) { return true; }
+};
+
+template <typename T>
+using AlignedVector = std::vector<T, CacheLineAllocator<T>>;
+
+}  // namespace zskel
