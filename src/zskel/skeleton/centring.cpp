@@ -1,6 +1,7 @@
 #include "zskel/skeleton/centring.h"
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 #include "zskel/core/parallel.h"
@@ -12,7 +13,11 @@ namespace {
 class Centring {
   public:
     Centring(CurveGraph& graph, const SurfaceQuery& query, const RefineOptions& options)
-        : graph_(graph), query_(query), options_(options) {}
+        : graph_(graph),
+          query_(query),
+          options_(options),
+          balls_(graph.nodes.size()),
+          sections_(graph.nodes.size()) {}
 
     void run() {
         for (int i = 0; i < options_.smoothing_sweeps; ++i) smooth(options_.smoothing);
@@ -26,6 +31,19 @@ class Centring {
 
   private:
     using Node = CurveGraph::Node;
+    struct Ball {
+        Vec3 centre{0.0f};
+        float radius = 0.0f;
+    };
+    struct Section {
+        Vec3 seen_from{2.0f * SurfaceQuery::kFarthest};  // from nowhere yet
+        Vec3 tangent{0.0f};
+        Vec3 centre{0.0f};
+    };
+    // In radii, and as a cosine: what may change before a section is looked at again.
+    static constexpr float kSameAcross = 0.02f;
+    static constexpr float kSameAlong = 0.2f;
+    static constexpr float kSameTangent = 0.9995f;
 
     // One pass over all nodes but the ends: each towards the middle of its neighbours, or away from
     // it where `share` is negative. A move that would leave the solid is not made.
@@ -83,16 +101,60 @@ class Centring {
         move(targets);
     }
 
-    Vec3 centred(std::uint32_t n) const {
+    Vec3 centred(std::uint32_t n) {
         const Node& node = graph_.nodes[n];
         const Vec3 chord = ahead_of(n, node.links[1]) - ahead_of(n, node.links[0]);
         if (!(glm::length(chord) > 0.0f)) return node.position;
-        const Vec3 step =
-            step_to_section_centre(query_, node.position, glm::normalize(chord)) * centring_[n];
-        const float longest = static_cast<float>(options_.longest_move_radii) *
-                              query_.nearest(node.position).distance;
+        const Vec3 step = step_to_centre(n, glm::normalize(chord)) * centring_[n];
         const float length = glm::length(step);
+        const auto share = static_cast<float>(options_.longest_move_radii);
+        if (length <= share * clearance(n, node.position)) return node.position + step;
+        const float longest = share * look_round(n);
         return node.position + (length > longest ? step * (longest / length) : step);
+    }
+
+    Vec3 step_to_centre(std::uint32_t n, const Vec3& tangent) {
+        Section& section = sections_[n];
+        const Vec3& here = graph_.at(n);
+        if (!is_known(section, here, tangent, balls_[n].radius)) {
+            section = {here, tangent, here + step_to_section_centre(query_, here, tangent)};
+            if (clearance(n, here) <= 0.0f) look_round(n);
+        }
+        const Vec3 step = section.centre - here;
+        return step - tangent * glm::dot(tangent, step);
+    }
+
+    // A section that was looked at from near here has the same centre: nearer across than along.
+    static bool is_known(const Section& section, const Vec3& here, const Vec3& tangent,
+                         float radius) {
+        const Vec3 moved = here - section.seen_from;
+        const float along = std::abs(glm::dot(moved, tangent));
+        const float across = glm::length(moved - tangent * glm::dot(moved, tangent));
+        return across <= kSameAcross * radius && along <= kSameAlong * radius &&
+               glm::dot(section.tangent, tangent) >= kSameTangent;
+    }
+
+    // A lower bound of the inscribed radius at `point`, from where node `n` last looked round.
+    float clearance(std::uint32_t n, const Vec3& point) const {
+        return balls_[n].radius - glm::distance(balls_[n].centre, point);
+    }
+    float look_round(std::uint32_t n) {
+        balls_[n] = {graph_.at(n), query_.nearest(graph_.at(n)).distance};
+        return balls_[n].radius;
+    }
+
+    // Whether nothing lies between node `n`, moved to `to`, and its neighbour: where their balls
+    // meet, no ray is needed.
+    bool is_free(std::uint32_t n, const Vec3& to, std::uint32_t other) {
+        const float length = glm::distance(graph_.at(other), to);
+        const auto balls_meet = [&] {
+            return length < clearance(n, to) + clearance(other, graph_.at(other));
+        };
+        if (balls_meet()) return true;
+        for (const std::uint32_t k : {n, other}) {
+            if (clearance(k, graph_.at(k)) <= 0.5f * balls_[k].radius) look_round(k);
+        }
+        return balls_meet() || !query_.first_hit(graph_.at(other), to);
     }
 
     // A point of the branch two nodes on from `n` over its neighbour `next`.
@@ -103,12 +165,13 @@ class Centring {
     }
 
     void move(const std::vector<std::pair<std::uint32_t, Vec3>>& targets) {
-        for (const auto& [n, target] : targets) {
+        for (const auto& target : targets) {
+            const std::uint32_t n = target.first;
+            const Vec3& to = target.second;
             Node& node = graph_.nodes[n];
-            const Vec3& to = target;
-            const bool stays = std::all_of(
-                node.links.begin(), node.links.end(),
-                [&](std::uint32_t other) { return !query_.first_hit(graph_.at(other), to); });
+            const bool stays =
+                std::all_of(node.links.begin(), node.links.end(),
+                            [&](std::uint32_t other) { return is_free(n, to, other); });
             if (stays) node.position = to;
         }
     }
@@ -116,6 +179,8 @@ class Centring {
     CurveGraph& graph_;
     const SurfaceQuery& query_;
     const RefineOptions& options_;
+    std::vector<Ball> balls_;  // inscribed, where each node last looked
+    std::vector<Section> sections_;
     std::vector<float> centring_;  // of every node: share of the way that a sweep takes
 };
 

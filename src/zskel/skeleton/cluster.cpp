@@ -52,8 +52,15 @@ class Merger {
         }
     }
 
+    // Halves the way on its way, so that long chains of mergers are walked once.
     std::uint32_t survivor(std::uint32_t cluster) {
-        while (clusters_[cluster].merged_into != kNone) cluster = clusters_[cluster].merged_into;
+        while (clusters_[cluster].merged_into != kNone) {
+            const std::uint32_t next = clusters_[cluster].merged_into;
+            const std::uint32_t after = clusters_[next].merged_into;
+            if (after == kNone) return next;
+            clusters_[cluster].merged_into = after;
+            cluster = after;
+        }
         return cluster;
     }
 

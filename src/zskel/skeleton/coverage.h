@@ -28,7 +28,8 @@ class Coverage {
     const std::vector<Vec3>& places() const { return places_; }
 
   private:
-    void add_segment(const Vec3& a, const Vec3& b, float radius_a, float radius_b);
+    void add_segment(std::size_t place, const Vec3& a, const Vec3& b, float radius_a,
+                     float radius_b);
 
     const SurfaceQuery& query_;
     std::vector<Vec3> places_;

@@ -1,6 +1,7 @@
 #include "zskel/skeleton/girth.h"
 
 #include <algorithm>
+#include <iterator>
 
 #include "zskel/core/parallel.h"
 #include "zskel/visibility/directions.h"
@@ -12,25 +13,28 @@ constexpr int kDirections = 64;
 constexpr float kMostRadii = 3.0f;
 constexpr float kLeastCosine = 0.7f;  // of the cone into the depth
 
-float middle_of(std::vector<float>& ways) {
+float middle_of(std::span<float> ways) {
     const auto middle = ways.begin() + static_cast<std::ptrdiff_t>(ways.size() / 2);
     std::nth_element(ways.begin(), middle, ways.end());
     return *middle;
 }
 
+std::vector<Vec3> directions_round(int count) {
+    const Directions directions = radial_directions(count);
+    return {directions.unit.begin(), directions.unit.end()};
+}
+
 }  // namespace
 
 std::vector<float> girths_at(const SurfaceQuery& query, std::span<const Vec3> points) {
-    const Directions directions = radial_directions(kDirections);
+    const std::vector<Vec3> directions = directions_round(kDirections);
     std::vector<float> out(points.size());
     parallel_for(points.size(), 8, [&](std::size_t begin, std::size_t end) {
+        std::vector<float> ways(directions.size());
         for (std::size_t i = begin; i < end; ++i) {
+            query.free_ways(points[i], directions, ways);
             const float longest = kMostRadii * query.nearest(points[i]).distance;
-            std::vector<float> ways;
-            for (const DVec3& direction : directions.unit) {
-                ways.push_back(query.free_way(points[i], Vec3(direction), longest));
-            }
-            out[i] = middle_of(ways);
+            out[i] = std::min(middle_of(ways), longest);
         }
     });
     return out;
@@ -38,16 +42,17 @@ std::vector<float> girths_at(const SurfaceQuery& query, std::span<const Vec3> po
 
 std::vector<float> depths_under(const SurfaceQuery& query, std::span<const Vec3> inside,
                                 std::span<const Vec3> normals) {
-    const Directions directions = radial_directions(4 * kDirections);
+    const std::vector<Vec3> directions = directions_round(4 * kDirections);
     std::vector<float> out(inside.size());
     parallel_for(inside.size(), 8, [&](std::size_t begin, std::size_t end) {
+        std::vector<Vec3> down;
+        std::vector<float> ways;
         for (std::size_t i = begin; i < end; ++i) {
-            std::vector<float> ways;
-            for (const DVec3& direction : directions.unit) {
-                const Vec3 way(direction);
-                if (glm::dot(way, -normals[i]) >= kLeastCosine)
-                    ways.push_back(query.free_way(inside[i], way));
-            }
+            down.clear();
+            std::copy_if(directions.begin(), directions.end(), std::back_inserter(down),
+                         [&](const Vec3& d) { return glm::dot(d, -normals[i]) >= kLeastCosine; });
+            ways.resize(down.size());
+            query.free_ways(inside[i], down, ways);
             out[i] = ways.empty() ? kInfinity : 0.5f * middle_of(ways);
         }
     });

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "zskel/core/edges.h"
+#include "zskel/core/parallel.h"
 #include "zskel/skeleton/connect.h"
 #include "zskel/skeleton/method.h"
 #include "zskel/skeleton/network.h"
@@ -23,6 +24,14 @@ void center_on_members(Clusters& clusters, std::span<const Vec3> ends) {
         if (best[c] == kNone || distance(p) < distance(best[c])) best[c] = p;
     }
     for (std::size_t c = 0; c < best.size(); ++c) clusters.centers[c] = ends[best[c]];
+}
+
+std::vector<float> radii_at(const SurfaceQuery& query, std::span<const Vec3> points) {
+    std::vector<float> out(points.size());
+    parallel_for(points.size(), 16, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t i = begin; i < end; ++i) out[i] = query.nearest(points[i]).distance;
+    });
+    return out;
 }
 
 HandleClasses handles_of(const Surface& surface, const std::vector<Vec3>& inner, bool is_closed,
@@ -110,11 +119,10 @@ SolidSkeleton extract_by_newton(const Surface& surface, bool is_closed, Visibili
     progress.begin("connect");
     // Pairs of seeds whose patches meet.
     const std::vector<glm::uvec2> links = connect_clusters(spread.seed_of, surface.edges);
-    std::vector<float> radii;
+    const std::vector<float> radii = radii_at(query, ends);
     std::vector<float> ranges;
-    for (const Vec3& end : ends) {
-        radii.push_back(query.nearest(end).distance);
-        const double wanted = options.cluster_radii * static_cast<double>(radii.back());
+    for (const float radius : radii) {
+        const double wanted = options.cluster_radii * static_cast<double>(radius);
         ranges.push_back(static_cast<float>(
             std::clamp(wanted, options.min_cluster_world, options.max_cluster_world)));
     }

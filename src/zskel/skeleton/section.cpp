@@ -19,13 +19,17 @@ Vec3 step_to_section_centre(const SurfaceQuery& query, const Vec3& point, const 
     const DVec3 across = glm::normalize(glm::cross(along, helper));
     const DVec3 up = glm::cross(along, across);
     std::array<DVec3, kPairs> directions;
-    std::array<double, 2 * kPairs> ways{};
+    std::array<Vec3, 2 * kPairs> rays;
     for (std::size_t i = 0; i < kPairs; ++i) {
         const double angle = std::numbers::pi * static_cast<double>(i) / kPairs;
         directions[i] = across * std::cos(angle) + up * std::sin(angle);
-        ways[i] = static_cast<double>(query.free_way(point, Vec3(directions[i])));
-        ways[i + kPairs] = static_cast<double>(query.free_way(point, Vec3(-directions[i])));
+        rays[i] = Vec3(directions[i]);
+        rays[i + kPairs] = -rays[i];
     }
+    std::array<float, 2 * kPairs> free_ways{};
+    query.free_ways(point, rays, free_ways);
+    std::array<double, 2 * kPairs> ways{};
+    std::copy(free_ways.begin(), free_ways.end(), ways.begin());
     std::array<double, 2 * kPairs> sorted = ways;
     std::nth_element(sorted.begin(), sorted.begin() + kPairs, sorted.end());
     const double limit = kMostMedians * sorted[kPairs];

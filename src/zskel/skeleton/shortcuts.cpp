@@ -8,19 +8,23 @@
 namespace zskel {
 namespace {
 
-// A breadth-first walk from one seed over those that ended in its ball.
+// A breadth-first walk from one seed over those that ended in its ball. `seen` holds, of every
+// seed, one more than the last that reached it.
 std::vector<Shortcut> shortcuts_of(std::uint32_t first, std::span<const Vec3> ends,
                                    const VertexGraph& graph, float radius,
-                                   std::span<const float> ranges) {
+                                   std::span<const float> ranges,
+                                   std::vector<std::uint32_t>& seen) {
     std::vector<std::uint32_t> reached{first};
     std::vector<std::uint32_t> from{0};
     std::vector<std::uint32_t> depth{0};
+    seen[first] = first + 1;
     std::vector<Shortcut> out;
     for (std::size_t i = 0; i < reached.size(); ++i) {
         for (const VertexGraph::Link& link : graph.of(reached[i])) {
             const std::uint32_t next = link.vertex;
             if (glm::distance(ends[first], ends[next]) > radius) continue;
-            if (std::find(reached.begin(), reached.end(), next) != reached.end()) continue;
+            if (seen[next] == first + 1) continue;
+            seen[next] = first + 1;
             reached.push_back(next);
             from.push_back(static_cast<std::uint32_t>(i));
             depth.push_back(depth[i] + 1);
@@ -45,8 +49,10 @@ std::vector<Shortcut> find_shortcuts(std::span<const Vec3> ends, std::span<const
     const VertexGraph graph(ends.size(), links);
     std::vector<std::vector<Shortcut>> found(ends.size());
     parallel_for(ends.size(), 16, [&](std::size_t begin, std::size_t end) {
+        std::vector<std::uint32_t> seen(ends.size(), 0);
         for (std::size_t i = begin; i < end; ++i) {
-            found[i] = shortcuts_of(static_cast<std::uint32_t>(i), ends, graph, radii[i], ranges);
+            found[i] =
+                shortcuts_of(static_cast<std::uint32_t>(i), ends, graph, radii[i], ranges, seen);
         }
     });
     std::vector<Shortcut> out;

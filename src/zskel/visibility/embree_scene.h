@@ -2,6 +2,9 @@
 
 #include <embree3/rtcore.h>
 
+#include <algorithm>
+#include <span>
+
 #include "zskel/mesh/surface.h"
 
 namespace zskel {
@@ -21,5 +24,39 @@ class EmbreeScene {
     RTCDevice device_ = nullptr;
     RTCScene scene_ = nullptr;
 };
+
+/// Casts rays from one point in unit directions, 16 at a time, and tells `take(ray, distance,
+/// triangle)` of each: kInfinity and kNone where nothing is hit.
+template <typename Take>
+void cast_rays(const EmbreeScene& scene, const Vec3& from, std::span<const Vec3> directions,
+               const Take& take) {
+    constexpr std::size_t kPacket = 16;
+    RTCIntersectContext context;
+    rtcInitIntersectContext(&context);
+    context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
+    for (std::size_t first = 0; first < directions.size(); first += kPacket) {
+        const std::size_t count = std::min(kPacket, directions.size() - first);
+        RTCRayHit16 rays{};
+        alignas(64) int valid[kPacket];
+        for (std::size_t k = 0; k < kPacket; ++k) {
+            const Vec3& d = directions[std::min(first + k, directions.size() - 1)];
+            valid[k] = k < count ? -1 : 0;
+            rays.ray.org_x[k] = from.x;
+            rays.ray.org_y[k] = from.y;
+            rays.ray.org_z[k] = from.z;
+            rays.ray.dir_x[k] = d.x;
+            rays.ray.dir_y[k] = d.y;
+            rays.ray.dir_z[k] = d.z;
+            rays.ray.tfar[k] = kInfinity;
+            rays.ray.mask[k] = 0xFFFFFFFFu;
+            rays.hit.geomID[k] = RTC_INVALID_GEOMETRY_ID;
+        }
+        rtcIntersect16(valid, scene.get(), &context, &rays);
+        for (std::size_t k = 0; k < count; ++k) {
+            const bool hit = rays.hit.geomID[k] != RTC_INVALID_GEOMETRY_ID;
+            take(first + k, hit ? rays.ray.tfar[k] : kInfinity, hit ? rays.hit.primID[k] : kNone);
+        }
+    }
+}
 
 }  // namespace zskel

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <numeric>
 #include <optional>
 #include <string>
@@ -123,7 +124,8 @@ class RasterPipeline {
         const std::size_t texels = directions_.size();
         parallel_for(eyes.size(), 8, [&](std::size_t begin, std::size_t end) {
             for (std::size_t e = begin; e < end; ++e) {
-                resolve(e, distance.subspan(e * texels, texels), id.subspan(e * texels, texels));
+                resolve(surface, eyes[e], e, distance.subspan(e * texels, texels),
+                        id.subspan(e * texels, texels));
             }
         });
     }
@@ -172,19 +174,35 @@ class RasterPipeline {
 
     // In place: near/z becomes a distance, and a triangle's number in its draw its number in the
     // solid.
-    void resolve(std::size_t eye, std::span<float> texels, std::span<std::uint32_t> ids) const {
+    void resolve(const Surface& surface, const Vec3& position, std::size_t eye,
+                 std::span<float> texels, std::span<std::uint32_t> ids) const {
         const std::size_t per_face = texels.size() / kFaces;
         for (std::size_t i = 0; i < texels.size(); ++i) {
             if (texels[i] > 0.0f) {
                 const DrawCommand& command = list_.commands[eye * kFaces + i / per_face];
-                texels[i] = axial_to_radial_[i] / texels[i];
                 ids[i] = list_.triangles[command.first_index / 3 + ids[i]];
+                texels[i] = on_plane(surface, ids[i], position, directions_.unit[i],
+                                     axial_to_radial_[i] / texels[i]);
             } else {
                 texels[i] = kInfinity;
                 ids[i] = kNone;
             }
         }
     }
+
+    // The depth buffer tells what is seen, and where to a few millionths; the plane of what is seen
+    // tells where to a rounding, unless it is seen too nearly from its edge.
+    static float on_plane(const Surface& surface, std::uint32_t triangle, const Vec3& eye,
+                          const DVec3& direction, float distance) {
+        const DVec3 normal(surface.triangle_normals[triangle]);
+        const Vec3& corner = surface.positions[surface.triangles[triangle].x];
+        const double exact =
+            glm::dot(normal, DVec3(corner) - DVec3(eye)) / glm::dot(normal, direction);
+        const bool agree = std::abs(exact - static_cast<double>(distance)) <=
+                           kPlaneAgreement * static_cast<double>(distance);
+        return agree ? static_cast<float>(exact) : distance;
+    }
+    static constexpr double kPlaneAgreement = 1e-3;
 
     gl::Context& context_;
     int face_px_;

@@ -22,45 +22,18 @@ class EmbreeSource : public VisibilitySource {
         maps.resize(eyes.size(), directions().size());
         parallel_for(eyes.size(), 1, [&](std::size_t begin, std::size_t end) {
             for (std::size_t i = begin; i < end; ++i) {
-                const std::size_t at = i * maps.directions;
-                cast_eye(eyes[i], &maps.distance[at], &maps.id[at]);
+                float* distances = &maps.distance[i * maps.directions];
+                std::uint32_t* ids = &maps.id[i * maps.directions];
+                cast_rays(scene_, eyes[i], floats_,
+                          [&](std::size_t k, float distance, std::uint32_t triangle) {
+                              distances[k] = distance;
+                              ids[k] = triangle;
+                          });
             }
         });
     }
 
   private:
-    static constexpr std::size_t kPacket = 16;
-
-    void cast_eye(const Vec3& eye, float* distance, std::uint32_t* id) const {
-        RTCIntersectContext context;
-        rtcInitIntersectContext(&context);
-        context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
-        for (std::size_t first = 0; first < floats_.size(); first += kPacket) {
-            const std::size_t count = std::min(kPacket, floats_.size() - first);
-            RTCRayHit16 rays{};
-            alignas(64) int valid[kPacket];
-            for (std::size_t k = 0; k < kPacket; ++k) {
-                const Vec3& d = floats_[std::min(first + k, floats_.size() - 1)];
-                valid[k] = k < count ? -1 : 0;
-                rays.ray.org_x[k] = eye.x;
-                rays.ray.org_y[k] = eye.y;
-                rays.ray.org_z[k] = eye.z;
-                rays.ray.dir_x[k] = d.x;
-                rays.ray.dir_y[k] = d.y;
-                rays.ray.dir_z[k] = d.z;
-                rays.ray.tfar[k] = kInfinity;
-                rays.ray.mask[k] = 0xFFFFFFFFu;
-                rays.hit.geomID[k] = RTC_INVALID_GEOMETRY_ID;
-            }
-            rtcIntersect16(valid, scene_.get(), &context, &rays);
-            for (std::size_t k = 0; k < count; ++k) {
-                const bool hit = rays.hit.geomID[k] != RTC_INVALID_GEOMETRY_ID;
-                distance[first + k] = hit ? rays.ray.tfar[k] : kInfinity;
-                id[first + k] = hit ? rays.hit.primID[k] : kNone;
-            }
-        }
-    }
-
     EmbreeScene scene_;
     std::vector<Vec3> floats_;
 };

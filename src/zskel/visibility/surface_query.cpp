@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "zskel/core/assert.h"
 #include "zskel/mesh/winding.h"
 #include "zskel/visibility/embree_scene.h"
 
@@ -42,11 +43,17 @@ struct NearestSearch {
     SurfaceQuery::Nearest best;
 };
 
+constexpr float kPlaneSlack = 1.0001f;  // for rounding
+
 bool visit_triangle(RTCPointQueryFunctionArguments* arguments) {
     auto& search = *static_cast<NearestSearch*>(arguments->userPtr);
     const std::uint32_t id = arguments->primID;
     const Triangle& t = search.surface->triangles[id];
     const auto& positions = search.surface->positions;
+    // A plane that is farther off than the nearest so far holds nothing nearer.
+    const float off_plane =
+        std::abs(glm::dot(search.point - positions[t.x], search.surface->triangle_normals[id]));
+    if (off_plane > kPlaneSlack * search.best.distance) return false;
     const Vec3 found =
         nearest_on_triangle(search.point, positions[t.x], positions[t.y], positions[t.z]);
     const float distance = glm::distance(search.point, found);
@@ -102,6 +109,15 @@ std::optional<SurfaceQuery::Hit> SurfaceQuery::first_hit(const Vec3& from, const
 float SurfaceQuery::free_way(const Vec3& from, const Vec3& direction, float farthest) const {
     const auto hit = first_hit(from, from + direction * farthest);
     return hit ? hit->fraction * farthest : farthest;
+}
+
+void SurfaceQuery::free_ways(const Vec3& from, std::span<const Vec3> directions,
+                             std::span<float> ways) const {
+    ZSKEL_ASSERT(directions.size() == ways.size(), "one way a direction");
+    cast_rays(impl_->scene, from, directions,
+              [&](std::size_t i, float distance, std::uint32_t /*triangle*/) {
+                  ways[i] = std::min(distance, kFarthest);
+              });
 }
 
 double SurfaceQuery::winding_number(const Vec3& point) const {

@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <memory>
 #include <optional>
+#include <span>
 
 #include "zskel/mesh/surface.h"
 
@@ -36,6 +37,9 @@ class SurfaceQuery {
     /// From a point on in a unit direction to the surface, world units; `farthest` when there is
     /// none so near.
     float free_way(const Vec3& from, const Vec3& direction, float farthest = kFarthest) const;
+
+    /// The same in many directions from one point, several at a time.
+    void free_ways(const Vec3& from, std::span<const Vec3> directions, std::span<float> ways) const;
 
     /// Winding number about `point`, exact also for open surfaces. O(triangles).
     double winding_number(const Vec3& point) const;

@@ -21,19 +21,19 @@ void add_cluster(TriangleClusters& out, const Surface& surface,
         for (std::size_t i = 0; i < kBlock; ++i) {
             const bool padding = first + i >= members.size();
             const std::uint32_t t = members[padding ? first : first + i];
-            for (int corner = 0; corner < 3; ++corner) {
-                const Vec3& p = surface.positions[surface.triangles[t][corner]];
-                for (int axis = 0; axis < 3; ++axis) {
-                    block.corner[static_cast<std::size_t>(3 * corner + axis)][i] = p[axis];
-                    float& low = boxes.low[static_cast<std::size_t>(axis)][cluster % kBlock];
-                    float& high = boxes.high[static_cast<std::size_t>(axis)][cluster % kBlock];
-                    low = std::min(low, p[axis]);
-                    high = std::max(high, p[axis]);
+            const Vec3 normal = padding ? Vec3(0.0f) : surface.triangle_normals[t];
+            for (std::size_t k = 0; k < 3; ++k) {
+                const auto axis = static_cast<int>(k);
+                for (std::size_t corner = 0; corner < 3; ++corner) {
+                    const std::uint32_t v = surface.triangles[t][static_cast<int>(corner)];
+                    const float x = surface.positions[v][axis];
+                    block.corner[3 * corner + k][i] = x;
+                    float& low = boxes.low[k][cluster % kBlock];
+                    float& high = boxes.high[k][cluster % kBlock];
+                    low = std::min(low, x);
+                    high = std::max(high, x);
                 }
-            }
-            for (int axis = 0; axis < 3; ++axis) {
-                block.normal[static_cast<std::size_t>(axis)][i] =
-                    padding ? 0.0f : surface.triangle_normals[t][axis];
+                block.normal[k][i] = normal[axis];
             }
             block.id[i] = t;
         }

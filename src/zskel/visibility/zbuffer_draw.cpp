@@ -26,9 +26,9 @@ using F = hn::Vec<Tag>;
 constexpr float kNearPlane = 1e-6f;
 // Corners nearer than this to the plane through the eye count as behind it.
 constexpr float kLeastAxial = 1e-12f;
-// Boxes are widened by this share of a face: rounding in the edges moves a triangle's border by
-// less.
-constexpr float kSlack = 5e-5f;
+// Boxes are widened by this share of a face: rounding in the edges, and a reciprocal of 11 bits,
+// move a triangle's border by less.
+constexpr float kSlack = 3e-4f;
 constexpr float kPadding = 1e15f;
 
 // Where on a face something may show; in texels, as floats.
@@ -41,12 +41,22 @@ struct FaceGrid {
     float middle;  // index of the middle
     float last;    // index of the last texel
     float slack;
+    float width;   // of a texel, in face coordinates
+    float centre;  // of the first texel
 
     explicit FaceGrid(int n)
         : half(0.5f * static_cast<float>(n)),
           middle(0.5f * static_cast<float>(n - 1)),
           last(static_cast<float>(n - 1)),
-          slack(kSlack * static_cast<float>(n)) {}
+          slack(kSlack * static_cast<float>(n)),
+          width(2.0f / static_cast<float>(n)),
+          centre(1.0f / static_cast<float>(n) - 1.0f) {}
+
+    // Centres of texels: always by this one formula, so that no two places of the code differ.
+    F at(F index) const {
+        const Tag d;
+        return hn::MulAdd(index, hn::Set(d, width), hn::Set(d, centre));
+    }
 
     F first(F u) const {
         const Tag d;
@@ -128,12 +138,23 @@ void list_candidates(const TriangleClusters& clusters, const TexelGrid& grid, co
     }
 }
 
-// The order of candidates from near to far, by buckets of an eighth of an octave.
+// The order of candidates from near to far; many go by buckets of an eighth of an octave.
 void sort_near_to_far(const std::vector<ZBuffer::Candidate>& list,
                       std::vector<std::uint32_t>& order) {
+    constexpr std::size_t kFew = 32;
     constexpr std::uint32_t kBuckets = 256;
+    order.resize(list.size());
+    if (list.size() <= kFew) {
+        for (std::uint32_t i = 0; i < list.size(); ++i) {
+            std::uint32_t at = i;
+            for (; at > 0 && list[order[at - 1]].inverse_near < list[i].inverse_near; --at)
+                order[at] = order[at - 1];
+            order[at] = i;
+        }
+        return;
+    }
     const auto bucket_of = [](float inverse_near) {
-        std::uint32_t bits;
+        std::uint32_t bits = 0;
         std::memcpy(&bits, &inverse_near, sizeof bits);
         constexpr std::uint32_t kOne = 0x3F800000u >> 20;  // inverse_near is about 1 or more
         const std::uint32_t octaves = bits >> 20;
@@ -142,7 +163,6 @@ void sort_near_to_far(const std::vector<ZBuffer::Candidate>& list,
     std::uint32_t start[kBuckets + 1] = {};
     for (const ZBuffer::Candidate& c : list) ++start[bucket_of(c.inverse_near) + 1];
     for (std::uint32_t i = 0; i < kBuckets; ++i) start[i + 1] += start[i];
-    order.resize(list.size());
     for (std::uint32_t i = 0; i < list.size(); ++i)
         order[start[bucket_of(list[i].inverse_near)]++] = i;
 }
@@ -199,7 +219,8 @@ class FaceDrawer {
                 hn::Sub(hn::Mul(p.b, q.a), hn::Mul(p.a, q.b))};
     }
 
-    static F at(const Point& g, F u, F v) { return hn::MulAdd(g.a, u, hn::MulAdd(g.b, v, g.w)); }
+    static F in_column(const Point& g, F u) { return hn::MulAdd(g.a, u, g.w); }
+    static F at(const Point& g, F u, F v) { return hn::MulAdd(g.b, v, in_column(g, u)); }
 
     void draw_lanes(const TriangleBlock& block, std::size_t o) const {
         const Tag d;
@@ -216,9 +237,9 @@ class FaceDrawer {
 
         Rect rect;
         {
-            const F i0 = hn::Div(one, p0.w);
-            const F i1 = hn::Div(one, p1.w);
-            const F i2 = hn::Div(one, p2.w);
+            const F i0 = hn::ApproximateReciprocal(p0.w);
+            const F i1 = hn::ApproximateReciprocal(p1.w);
+            const F i2 = hn::ApproximateReciprocal(p2.w);
             const F a0 = hn::Mul(p0.a, i0);
             const F a1 = hn::Mul(p1.a, i1);
             const F a2 = hn::Mul(p2.a, i2);
@@ -278,14 +299,8 @@ class FaceDrawer {
         const auto single = hn::And(shows, hn::And(hn::Eq(rect.first_column, rect.last_column),
                                                    hn::Eq(rect.first_row, rect.last_row)));
         if (!hn::AllFalse(d, single)) {
-            const auto column = hn::ConvertTo(di, rect.first_column);
-            const auto row = hn::ConvertTo(di, rect.first_row);
-            // Lanes that do not count may hold any index.
-            const auto safe = hn::RebindMask(di, single);
-            const auto c = hn::IfThenElseZero(safe, column);
-            const auto r = hn::IfThenElseZero(safe, row);
-            const F u = hn::GatherIndex(d, grid_.center.data(), c);
-            const F v = hn::GatherIndex(d, grid_.center.data(), r);
+            const F u = texels_.at(rect.first_column);
+            const F v = texels_.at(rect.first_row);
             const F inside = least(at(e0, u, v), at(e1, u, v), at(e2, u, v));
             const F inverse = at(g, u, v);
             const auto drawn =
@@ -294,9 +309,9 @@ class FaceDrawer {
                 HWY_ALIGN float inverses[kBlock];
                 HWY_ALIGN std::int32_t texels[kBlock];
                 hn::Store(inverse, d, inverses);
-                hn::Store(
-                    hn::Add(hn::Mul(r, hn::Set(di, static_cast<std::int32_t>(grid_.stride))), c),
-                    di, texels);
+                const F stride = hn::Set(d, static_cast<float>(grid_.stride));
+                const F texel = hn::MulAdd(rect.first_row, stride, rect.first_column);
+                hn::Store(hn::ConvertTo(di, texel), di, texels);
                 for (unsigned mask = bits_of(drawn); mask != 0; mask &= mask - 1) {
                     const std::size_t i = hwy::Num0BitsBelowLS1Bit_Nonzero32(mask);
                     float& depth = depth_[texels[i]];
@@ -319,11 +334,11 @@ class FaceDrawer {
             hn::Store(points[k]->b, d, lines[3 * k + 1]);
             hn::Store(points[k]->w, d, lines[3 * k + 2]);
         }
-        HWY_ALIGN float rects[4][kBlock];
-        hn::Store(rect.first_column, d, rects[0]);
-        hn::Store(rect.last_column, d, rects[1]);
-        hn::Store(rect.first_row, d, rects[2]);
-        hn::Store(rect.last_row, d, rects[3]);
+        HWY_ALIGN std::int32_t rects[4][kBlock];
+        hn::Store(hn::ConvertTo(di, rect.first_column), di, rects[0]);
+        hn::Store(hn::ConvertTo(di, rect.last_column), di, rects[1]);
+        hn::Store(hn::ConvertTo(di, rect.first_row), di, rects[2]);
+        hn::Store(hn::ConvertTo(di, rect.last_row), di, rects[3]);
         for (unsigned mask = bits_of(wide); mask != 0; mask &= mask - 1) {
             const std::size_t i = hwy::Num0BitsBelowLS1Bit_Nonzero32(mask);
             draw_rows(lines, rects, i, block.id[o + i]);
@@ -337,29 +352,29 @@ class FaceDrawer {
         return bits[0] | (static_cast<unsigned>(bits[1]) << 8);
     }
 
-    void draw_rows(const float (&lines)[12][kBlock], const float (&rects)[4][kBlock], std::size_t i,
-                   std::uint32_t triangle) const {
+    void draw_rows(const float (&lines)[12][kBlock], const std::int32_t (&rects)[4][kBlock],
+                   std::size_t i, std::uint32_t triangle) const {
         const Tag d;
         const IntTag di;
         const std::size_t lanes = hn::Lanes(d);
-        const auto point = [&](int k) {
-            return Point{hn::Set(d, lines[3 * k][i]), hn::Set(d, lines[3 * k + 1][i]),
-                         hn::Set(d, lines[3 * k + 2][i])};
-        };
-        const Point e0 = point(0);
-        const Point e1 = point(1);
-        const Point e2 = point(2);
-        const Point g = point(3);
-        const auto first_column = static_cast<std::size_t>(rects[0][i]) / lanes * lanes;
+        const auto line = [&](int k) { return hn::Set(d, lines[k][i]); };
         const auto last_column = static_cast<std::size_t>(rects[1][i]);
+        const auto first_row = static_cast<std::size_t>(rects[2][i]);
         const auto last_row = static_cast<std::size_t>(rects[3][i]);
         const auto name = hn::Set(di, static_cast<std::int32_t>(triangle));
-        for (auto row = static_cast<std::size_t>(rects[2][i]); row <= last_row; ++row) {
-            const F v = hn::Set(d, grid_.center[row]);
-            for (std::size_t column = first_column; column <= last_column; column += lanes) {
-                const F u = hn::Load(d, &grid_.center[column]);
-                const F inside = hn::Min(hn::Min(at(e0, u, v), at(e1, u, v)), at(e2, u, v));
-                const F inverse = at(g, u, v);
+        for (std::size_t column = static_cast<std::size_t>(rects[0][i]) / lanes * lanes;
+             column <= last_column; column += lanes) {
+            const F u = texels_.at(hn::Iota(d, static_cast<float>(column)));
+            const F c0 = hn::MulAdd(line(0), u, line(2));
+            const F c1 = hn::MulAdd(line(3), u, line(5));
+            const F c2 = hn::MulAdd(line(6), u, line(8));
+            const F c3 = hn::MulAdd(line(9), u, line(11));
+            for (std::size_t row = first_row; row <= last_row; ++row) {
+                const F v = texels_.at(hn::Set(d, static_cast<float>(row)));
+                const F inside =
+                    hn::Min(hn::Min(hn::MulAdd(line(1), v, c0), hn::MulAdd(line(4), v, c1)),
+                            hn::MulAdd(line(7), v, c2));
+                const F inverse = hn::MulAdd(line(10), v, c3);
                 const std::size_t texel = row * grid_.stride + column;
                 float* depth = depth_ + texel;
                 auto* id = reinterpret_cast<std::int32_t*>(id_ + texel);
