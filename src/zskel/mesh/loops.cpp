@@ -10,7 +10,7 @@
 #include <utility>
 
 #include "zskel/core/disjoint_sets.h"
-#include "zskel/core/edges.h"
+#include "zskel/mesh/sides.h"
 #include "zskel/mesh/vertex_graph.h"
 
 namespace zskel {
@@ -27,24 +27,29 @@ bool find_sides(const Surface& surface, EdgeSides& sides) {
     sides.left.assign(surface.edges.size(), kNone);
     sides.right.assign(surface.edges.size(), kNone);
     sides.triangle_edges.resize(surface.triangles.size());
-    for (std::uint32_t t = 0; t < surface.triangles.size(); ++t) {
-        for (int k = 0; k < 3; ++k) {
-            const std::uint32_t a = surface.triangles[t][k];
-            const std::uint32_t b = surface.triangles[t][(k + 1) % 3];
-            const glm::uvec2 wanted(std::min(a, b), std::max(a, b));
-            const auto at =
-                std::lower_bound(surface.edges.begin(), surface.edges.end(), wanted, edge_before);
-            const auto e = static_cast<std::uint32_t>(at - surface.edges.begin());
-            std::uint32_t& side = a < b ? sides.left[e] : sides.right[e];
-            if (side != kNone) return false;
-            side = t;
-            sides.triangle_edges[t][static_cast<std::size_t>(k)] = e;
+    const std::vector<Side> all = sorted_sides(surface.triangles, surface.positions.size());
+    std::uint32_t e = 0;
+    bool is_manifold = true;
+    for_each_edge(all, [&](std::size_t first, std::size_t last) {
+        is_manifold =
+            is_manifold && last - first == 2 && all[first].forward != all[first + 1].forward;
+        for (std::size_t i = first; i < last; ++i) {
+            (all[i].forward ? sides.left[e] : sides.right[e]) = all[i].triangle;
+            sides.triangle_edges[all[i].triangle][all[i].corner] = e;
         }
-    }
-    const auto missing = [](const std::vector<std::uint32_t>& list) {
-        return std::find(list.begin(), list.end(), kNone) != list.end();
-    };
-    return !missing(sides.left) && !missing(sides.right);
+        ++e;
+    });
+    return is_manifold;
+}
+
+// By Euler's formula: a closed surface without handles has two more vertices and faces than edges
+// in each component.
+bool has_handles(const Surface& surface) {
+    DisjointSets sets(surface.positions.size());
+    std::size_t components = surface.positions.size();
+    for (const glm::uvec2& e : surface.edges) components -= sets.unite(e.x, e.y) ? 1 : 0;
+    return surface.positions.size() + surface.triangles.size() !=
+           surface.edges.size() + 2 * components;
 }
 
 // Shortest paths from the first vertex of every component.
@@ -97,13 +102,14 @@ std::vector<std::uint32_t> loop_edges(const Surface& surface, const EdgeSides& s
     for (std::uint32_t e = 0; e < surface.edges.size(); ++e) {
         if (!tree.is_tree_edge[e]) order.push_back(e);
     }
-    const auto loop_length = [&](std::uint32_t e) {
+    std::vector<float> loop_length(surface.edges.size());
+    for (const std::uint32_t e : order) {
         const glm::uvec2& edge = surface.edges[e];
-        return tree.distance[edge.x] + tree.distance[edge.y] +
-               glm::distance(surface.positions[edge.x], surface.positions[edge.y]);
-    };
+        loop_length[e] = tree.distance[edge.x] + tree.distance[edge.y] +
+                         glm::distance(surface.positions[edge.x], surface.positions[edge.y]);
+    }
     std::stable_sort(order.begin(), order.end(),
-                     [&](auto l, auto r) { return loop_length(l) > loop_length(r); });
+                     [&](auto l, auto r) { return loop_length[l] > loop_length[r]; });
     DisjointSets sets(surface.triangles.size());
     is_dual_edge.assign(surface.edges.size(), false);
     std::vector<std::uint32_t> left;
@@ -197,11 +203,15 @@ class SpanFinder {
 std::optional<LoopSystem> find_loops(const Surface& surface) {
     EdgeSides sides;
     if (!find_sides(surface, sides)) return std::nullopt;
+    LoopSystem out;
+    if (!has_handles(surface)) {
+        out.edge_span.assign(surface.edges.size(), glm::uvec2(0));
+        return out;
+    }
     const VertexGraph graph(surface.positions.size(), surface.edges);
     const PathTree tree = grow_paths(surface, graph);
     std::vector<bool> is_dual_edge;
     const std::vector<std::uint32_t> closing = loop_edges(surface, sides, tree, is_dual_edge);
-    LoopSystem out;
     for (const std::uint32_t e : closing) {
         out.loops.push_back(joined_ways(way_to_root(surface.edges[e].x, tree),
                                         way_to_root(surface.edges[e].y, tree)));

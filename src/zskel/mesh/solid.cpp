@@ -1,9 +1,10 @@
 #include "zskel/mesh/solid.h"
 
 #include <algorithm>
+#include <numeric>
 
 #include "zskel/core/disjoint_sets.h"
-#include "zskel/core/edges.h"
+#include "zskel/mesh/sides.h"
 #include "zskel/mesh/winding.h"
 
 namespace zskel {
@@ -55,33 +56,18 @@ bool contains(const std::vector<Vec3>& positions, const Component& outer, const 
 // triangles count as one.
 void part_fans(Solid& solid) {
     std::vector<Triangle>& triangles = solid.surface.triangles;
-    struct Corner {
-        glm::uvec2 edge;  // lower vertex first
-        std::uint32_t low;
-        std::uint32_t high;  // corners at its vertices: 3 x triangle + place in it
+    const std::vector<Side> sides = sorted_sides(triangles, solid.vertex.size());
+    const auto low = [](const Side& s) {
+        return 3 * s.triangle + (s.forward ? s.corner : (s.corner + 1u) % 3u);
     };
-    std::vector<Corner> corners;
-    for (std::uint32_t t = 0; t < triangles.size(); ++t) {
-        for (std::uint32_t k = 0; k < 3; ++k) {
-            const std::uint32_t next = (k + 1) % 3;
-            glm::uvec2 edge(triangles[t][static_cast<int>(k)],
-                            triangles[t][static_cast<int>(next)]);
-            std::uint32_t low = 3 * t + k;
-            std::uint32_t high = 3 * t + next;
-            if (edge.x > edge.y) {
-                std::swap(edge.x, edge.y);
-                std::swap(low, high);
-            }
-            corners.push_back({edge, low, high});
-        }
-    }
-    std::sort(corners.begin(), corners.end(),
-              [](const Corner& l, const Corner& r) { return edge_before(l.edge, r.edge); });
+    const auto high = [](const Side& s) {
+        return 3 * s.triangle + (s.forward ? (s.corner + 1u) % 3u : s.corner);
+    };
     DisjointSets fans(triangles.size() * 3);
-    for (std::size_t i = 1; i < corners.size(); ++i) {
-        if (corners[i].edge != corners[i - 1].edge) continue;
-        fans.unite(corners[i].low, corners[i - 1].low);
-        fans.unite(corners[i].high, corners[i - 1].high);
+    for (std::size_t i = 1; i < sides.size(); ++i) {
+        if (sides[i].edge != sides[i - 1].edge) continue;
+        fans.unite(low(sides[i]), low(sides[i - 1]));
+        fans.unite(high(sides[i]), high(sides[i - 1]));
     }
     std::vector<bool> is_taken(solid.vertex.size(), false);
     std::vector<std::uint32_t> of_fan(triangles.size() * 3, kNone);
@@ -99,8 +85,33 @@ void part_fans(Solid& solid) {
     }
 }
 
-Solid make_solid(const PreparedSurface& prepared, const Component& shell,
-                 const std::vector<const Component*>& cavities) {
+// Parts the fans, and derives what follows from the vertices when that is not known yet.
+void finish(Solid& solid, const PreparedSurface& prepared) {
+    part_fans(solid);
+    Surface& surface = solid.surface;
+    if (surface.positions.size() == solid.vertex.size()) return;
+    surface.positions.clear();
+    for (const std::uint32_t v : solid.vertex)
+        surface.positions.push_back(prepared.surface.positions[v]);
+    derive_normals_and_edges(surface);
+}
+
+// The only part of a surface: all of it.
+Solid whole_surface(const PreparedSurface& prepared) {
+    Solid solid;
+    solid.is_closed = prepared.component_closed.front();
+    solid.surface = prepared.surface;
+    solid.vertex.resize(solid.surface.positions.size());
+    std::iota(solid.vertex.begin(), solid.vertex.end(), 0u);
+    solid.triangle.resize(solid.surface.triangles.size());
+    std::iota(solid.triangle.begin(), solid.triangle.end(), 0u);
+    return solid;
+}
+
+// `number` maps vertices of the whole to those of the solid; kNone on entry, and again on return.
+Solid one_of_many(const PreparedSurface& prepared, const Component& shell,
+                  const std::vector<const Component*>& cavities,
+                  std::vector<std::uint32_t>& number) {
     Solid solid;
     solid.is_closed = shell.closed;
     solid.cavity_count = static_cast<std::uint32_t>(cavities.size());
@@ -113,27 +124,28 @@ Solid make_solid(const PreparedSurface& prepared, const Component& shell,
         solid.triangle.insert(solid.triangle.end(), cavity->numbers.begin(), cavity->numbers.end());
     }
     for (const Triangle& t : surface.triangles) {
-        solid.vertex.insert(solid.vertex.end(), {t.x, t.y, t.z});
-    }
-    std::sort(solid.vertex.begin(), solid.vertex.end());
-    solid.vertex.erase(std::unique(solid.vertex.begin(), solid.vertex.end()), solid.vertex.end());
-    for (Triangle& t : surface.triangles) {
         for (int k = 0; k < 3; ++k) {
-            const auto at = std::lower_bound(solid.vertex.begin(), solid.vertex.end(), t[k]);
-            t[k] = static_cast<std::uint32_t>(at - solid.vertex.begin());
+            if (number[t[k]] == kNone) solid.vertex.push_back(t[k]);
+            number[t[k]] = 0;
         }
     }
-    part_fans(solid);
-    for (const std::uint32_t v : solid.vertex) {
-        surface.positions.push_back(prepared.surface.positions[v]);
+    std::sort(solid.vertex.begin(), solid.vertex.end());
+    for (std::uint32_t v = 0; v < solid.vertex.size(); ++v) number[solid.vertex[v]] = v;
+    for (Triangle& t : surface.triangles) {
+        for (int k = 0; k < 3; ++k) t[k] = number[t[k]];
     }
-    derive_normals_and_edges(surface);
+    for (const std::uint32_t v : solid.vertex) number[v] = kNone;
     return solid;
 }
 
 }  // namespace
 
 std::vector<Solid> split_solids(const PreparedSurface& prepared) {
+    if (prepared.component_count == 1) {
+        std::vector<Solid> solids{whole_surface(prepared)};
+        finish(solids.front(), prepared);
+        return solids;
+    }
     std::vector<Component> components = collect(prepared);
     for (Component& inner : components) {
         if (!inner.closed) continue;
@@ -154,9 +166,11 @@ std::vector<Solid> split_solids(const PreparedSurface& prepared) {
         cavities[shell].push_back(&part);
     }
     std::vector<Solid> solids;
+    std::vector<std::uint32_t> number(prepared.surface.positions.size(), kNone);
     for (std::size_t i = 0; i < components.size(); ++i) {
         if (components[i].around.size() % 2 != 0) continue;
-        solids.push_back(make_solid(prepared, components[i], cavities[i]));
+        solids.push_back(one_of_many(prepared, components[i], cavities[i], number));
+        finish(solids.back(), prepared);
     }
     return solids;
 }

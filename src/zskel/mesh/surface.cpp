@@ -6,57 +6,15 @@
 #include <array>
 #include <cmath>
 #include <numeric>
-#include <unordered_map>
+#include <tuple>
 
+#include "zskel/core/bucket_sort.h"
 #include "zskel/core/error.h"
+#include "zskel/mesh/sides.h"
+#include "zskel/mesh/weld.h"
 
 namespace zskel {
 namespace {
-
-struct PositionHash {
-    std::size_t operator()(const DVec3& p) const {
-        std::size_t hash = 0;
-        for (int k = 0; k < 3; ++k) {
-            const double value = p[k] == 0.0 ? 0.0 : p[k];  // -0 and +0 are the same place
-            hash = hash * 0x9E3779B97F4A7C15ull + std::hash<double>{}(value);
-        }
-        return hash;
-    }
-};
-
-// A side of a triangle: `forward` when the triangle runs from the lower to the higher vertex.
-struct Side {
-    glm::uvec2 edge;
-    std::uint32_t triangle;
-    bool forward;
-};
-
-std::vector<Side> sorted_sides(const std::vector<Triangle>& triangles) {
-    std::vector<Side> sides;
-    sides.reserve(triangles.size() * 3);
-    for (std::uint32_t t = 0; t < triangles.size(); ++t) {
-        for (int k = 0; k < 3; ++k) {
-            const std::uint32_t a = triangles[t][k];
-            const std::uint32_t b = triangles[t][(k + 1) % 3];
-            sides.push_back({{std::min(a, b), std::max(a, b)}, t, a < b});
-        }
-    }
-    std::sort(sides.begin(), sides.end(), [](const Side& l, const Side& r) {
-        return std::tie(l.edge.x, l.edge.y, l.triangle) < std::tie(r.edge.x, r.edge.y, r.triangle);
-    });
-    return sides;
-}
-
-// Calls visit(first, last) for each run of sides that share an edge.
-template <typename Visit>
-void for_each_edge(const std::vector<Side>& sides, Visit visit) {
-    for (std::size_t first = 0; first < sides.size();) {
-        std::size_t last = first + 1;
-        while (last < sides.size() && sides[last].edge == sides[first].edge) ++last;
-        visit(first, last);
-        first = last;
-    }
-}
 
 std::array<std::uint32_t, 3> sorted_corners(const Triangle& t) {
     std::array<std::uint32_t, 3> corners{t.x, t.y, t.z};
@@ -73,8 +31,7 @@ struct Welded {
 Welded weld(const Mesh& mesh, PreparedSurface& out) {
     Welded welded;
     out.surface_vertex.assign(mesh.positions.size(), kNone);
-    std::unordered_map<DVec3, std::uint32_t, PositionHash> places;
-    places.reserve(mesh.positions.size());
+    PlaceIndex places(mesh.positions.size());
     std::size_t merged = 0;
     std::size_t collapsed = 0;
     for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t) {
@@ -83,12 +40,9 @@ Welded weld(const Mesh& mesh, PreparedSurface& out) {
         for (int k = 0; k < 3; ++k) {
             std::uint32_t& place = out.surface_vertex[triangle[k]];
             if (place == kNone) {
-                const DVec3& position = mesh.positions[triangle[k]];
-                const auto next = static_cast<std::uint32_t>(welded.positions.size());
-                const auto [found, is_new] = places.try_emplace(position, next);
-                place = found->second;
-                if (is_new) welded.positions.push_back(position);
-                merged += is_new ? 0 : 1;
+                const std::size_t known = places.places().size();
+                place = places.add(mesh.positions[triangle[k]]);
+                merged += places.places().size() == known ? 1 : 0;
             }
             corners[k] = place;
         }
@@ -99,6 +53,7 @@ Welded weld(const Mesh& mesh, PreparedSurface& out) {
         welded.triangles.push_back(corners);
         out.input_triangle.push_back(t);
     }
+    welded.positions = places.take_places();
     const auto unused = static_cast<std::size_t>(
         std::count(out.surface_vertex.begin(), out.surface_vertex.end(), kNone));
     if (merged > 0)
@@ -109,17 +64,24 @@ Welded weld(const Mesh& mesh, PreparedSurface& out) {
 }
 
 void drop_duplicates(Welded& welded, PreparedSurface& out) {
-    std::vector<std::uint32_t> order(welded.triangles.size());
-    std::iota(order.begin(), order.end(), 0u);
-    std::vector<std::array<std::uint32_t, 3>> keys;
-    keys.reserve(order.size());
-    for (const Triangle& t : welded.triangles) keys.push_back(sorted_corners(t));
-    std::stable_sort(order.begin(), order.end(), [&](auto l, auto r) { return keys[l] < keys[r]; });
-    std::vector<bool> dropped(order.size(), false);
+    struct Face {
+        std::array<std::uint32_t, 3> corners;
+        std::uint32_t number;
+    };
+    std::vector<Face> faces;
+    faces.reserve(welded.triangles.size());
+    for (const Triangle& t : welded.triangles)
+        faces.push_back({sorted_corners(t), static_cast<std::uint32_t>(faces.size())});
+    faces = bucket_sorted(
+        faces, welded.positions.size(), [](const Face& f) { return f.corners[0]; },
+        [](const Face& l, const Face& r) {
+            return std::tie(l.corners, l.number) < std::tie(r.corners, r.number);
+        });
+    std::vector<bool> dropped(faces.size(), false);
     std::size_t count = 0;
-    for (std::size_t i = 1; i < order.size(); ++i) {
-        if (keys[order[i]] != keys[order[i - 1]]) continue;
-        dropped[order[i]] = true;
+    for (std::size_t i = 1; i < faces.size(); ++i) {
+        if (faces[i].corners != faces[i - 1].corners) continue;
+        dropped[faces[i].number] = true;
         ++count;
     }
     if (count == 0) return;
@@ -153,12 +115,13 @@ double signed_volume(const Welded& welded, const std::vector<std::uint32_t>& mem
 // Walks every component over edges with two triangles, turning neighbours that disagree, then turns
 // the whole component when it faces inward.
 void orient(Welded& welded, PreparedSurface& out) {
-    const std::vector<Side> sides = sorted_sides(welded.triangles);
+    const std::vector<Side> sides = sorted_sides(welded.triangles, welded.positions.size());
     struct Link {
         std::uint32_t triangle;
         bool agrees;
     };
-    std::vector<std::vector<Link>> links(welded.triangles.size());
+    // Neighbours over every edge, those of a triangle one after the other.
+    std::vector<std::uint32_t> first_link(welded.triangles.size() + 1, 0);
     std::vector<bool> touches_odd_edge(welded.triangles.size(), false);
     std::size_t open_edges = 0;
     std::size_t crowded_edges = 0;
@@ -170,9 +133,20 @@ void orient(Welded& welded, PreparedSurface& out) {
             touches_odd_edge[sides[i].triangle] = true;
         }
         for (std::size_t i = first; i + 1 < last; ++i) {
-            const bool agrees = sides[i].forward != sides[i + 1].forward;
-            links[sides[i].triangle].push_back({sides[i + 1].triangle, agrees || count > 2});
-            links[sides[i + 1].triangle].push_back({sides[i].triangle, agrees || count > 2});
+            ++first_link[sides[i].triangle + 1];
+            ++first_link[sides[i + 1].triangle + 1];
+        }
+    });
+    std::partial_sum(first_link.begin(), first_link.end(), first_link.begin());
+    std::vector<Link> links(first_link.back());
+    std::vector<std::uint32_t> next_link(first_link.begin(), first_link.end() - 1);
+    for_each_edge(sides, [&](std::size_t first, std::size_t last) {
+        for (std::size_t i = first; i + 1 < last; ++i) {
+            const Side& a = sides[i];
+            const Side& b = sides[i + 1];
+            const bool agrees = a.forward != b.forward || last - first > 2;
+            links[next_link[a.triangle]++] = {b.triangle, agrees};
+            links[next_link[b.triangle]++] = {a.triangle, agrees};
         }
     });
 
@@ -189,7 +163,8 @@ void orient(Welded& welded, PreparedSurface& out) {
         for (std::size_t next = 0; next < members.size(); ++next) {
             const std::uint32_t t = members[next];
             closed = closed && !touches_odd_edge[t];
-            for (const Link& link : links[t]) {
+            for (std::uint32_t l = first_link[t]; l < first_link[t + 1]; ++l) {
+                const Link& link = links[l];
                 const bool turn = turned[t] != !link.agrees;
                 if (out.component[link.triangle] == kNone) {
                     out.component[link.triangle] = out.component_count;
@@ -328,7 +303,7 @@ void derive_normals_and_edges(Surface& surface) {
         surface.vertex_normals.emplace_back(length > 0.0 ? Vec3(sum / length) : Vec3(0.0f));
     }
     surface.edges.clear();
-    const std::vector<Side> sides = sorted_sides(surface.triangles);
+    const std::vector<Side> sides = sorted_sides(surface.triangles, surface.positions.size());
     for_each_edge(
         sides, [&](std::size_t first, std::size_t) { surface.edges.push_back(sides[first].edge); });
 }

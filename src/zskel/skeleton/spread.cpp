@@ -1,14 +1,26 @@
 #include "zskel/skeleton/spread.h"
 
 #include <algorithm>
+#include <bit>
 #include <functional>
 #include <queue>
-#include <utility>
 
 #include "zskel/mesh/vertex_graph.h"
 
 namespace zskel {
 namespace {
+
+// A distance and a vertex as one number: in order of distance, then of vertex.
+using Entry = std::uint64_t;
+Entry entry_of(float distance, std::uint32_t vertex) {
+    return Entry{std::bit_cast<std::uint32_t>(distance)} << 32 | vertex;
+}
+float distance_of(Entry entry) {
+    return std::bit_cast<float>(static_cast<std::uint32_t>(entry >> 32));
+}
+std::uint32_t vertex_of(Entry entry) {
+    return static_cast<std::uint32_t>(entry);
+}
 
 class Spreader {
   public:
@@ -17,6 +29,8 @@ class Spreader {
           thickness_(thickness),
           graph_(surface.positions.size(), surface.edges),
           distance_(surface.positions.size(), kInfinity) {
+        lengths_.reserve(surface.edges.size());
+        for (const glm::uvec2& e : surface.edges) lengths_.push_back(length(e.x, e.y));
         out_.seed_of.assign(surface.positions.size(), kNone);
         out_.parent.assign(surface.positions.size(), kNone);
     }
@@ -25,22 +39,21 @@ class Spreader {
     void add(std::uint32_t vertex) {
         const auto seed = static_cast<std::uint32_t>(out_.vertices.size());
         out_.vertices.push_back(vertex);
-        using Entry = std::pair<float, std::uint32_t>;
-        std::priority_queue<Entry, std::vector<Entry>, std::greater<>> front;
         reach(vertex, 0.0f, seed, vertex);
-        front.emplace(0.0f, vertex);
-        while (!front.empty()) {
-            const auto [distance, v] = front.top();
-            front.pop();
+        front_.push(entry_of(0.0f, vertex));
+        while (!front_.empty()) {
+            const float distance = distance_of(front_.top());
+            const std::uint32_t v = vertex_of(front_.top());
+            front_.pop();
             if (distance > distance_[v] || out_.seed_of[v] != seed) continue;
             for (const VertexGraph::Link& link : graph_.of(v)) {
-                const float along = distance + length(v, link.vertex);
+                const float along = distance + lengths_[link.edge];
                 // What hangs on a vertex goes with it, even where rounding makes the ways equal.
                 const bool is_child = out_.parent[link.vertex] == v;
                 const float known = distance_[link.vertex];
                 if (along > known || (along == known && !is_child)) continue;
                 reach(link.vertex, along, seed, v);
-                front.emplace(along, link.vertex);
+                front_.push(entry_of(along, link.vertex));
             }
         }
     }
@@ -49,14 +62,14 @@ class Spreader {
     // come up.
     std::uint32_t farthest() {
         if (far_.empty()) {
-            for (std::uint32_t v = 0; v < distance_.size(); ++v) far_.emplace(distance_[v], ~v);
+            for (std::uint32_t v = 0; v < distance_.size(); ++v)
+                far_.push(entry_of(distance_[v], ~v));
         }
         while (true) {
-            const auto [distance, inverted] = far_.top();
-            const std::uint32_t v = ~inverted;
-            if (distance == distance_[v]) return v;
+            const std::uint32_t v = ~vertex_of(far_.top());
+            if (distance_of(far_.top()) == distance_[v]) return v;
             far_.pop();
-            far_.emplace(distance_[v], inverted);
+            far_.push(entry_of(distance_[v], ~v));
         }
     }
 
@@ -78,8 +91,10 @@ class Spreader {
     const Surface& surface_;
     std::span<const float> thickness_;
     VertexGraph graph_;
+    std::vector<float> lengths_;  // of the edges, over the local thickness
     std::vector<float> distance_;
-    std::priority_queue<std::pair<float, std::uint32_t>> far_;  // ties: the lowest vertex
+    std::priority_queue<Entry, std::vector<Entry>, std::greater<>> front_;
+    std::priority_queue<Entry> far_;  // ties: the lowest vertex
     SeedSpread out_;
 };
 

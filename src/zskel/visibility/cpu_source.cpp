@@ -2,6 +2,10 @@
 
 #include <hwy/highway.h>
 
+#include <algorithm>
+#include <numeric>
+#include <utility>
+
 #include "zskel/core/assert.h"
 #include "zskel/core/parallel.h"
 #include "zskel/visibility/cube_map.h"
@@ -14,6 +18,34 @@ namespace {
 constexpr std::size_t kClusterTriangles = 64;
 constexpr std::size_t kGrain = 8;  // eyes at least that share one Z-buffer, one after the other
 
+// The low ten bits of `x`, three apart.
+std::uint32_t spread_bits(std::uint32_t x) {
+    x = (x | (x << 16)) & 0x030000FFu;
+    x = (x | (x << 8)) & 0x0300F00Fu;
+    x = (x | (x << 4)) & 0x030C30C3u;
+    return (x | (x << 2)) & 0x09249249u;
+}
+
+// Along Morton's curve, so that eyes that see the same triangles come one after the other.
+std::vector<std::uint32_t> order_in_space(std::span<const Vec3> eyes) {
+    constexpr float kWorld = 4.0f;  // what lies beyond shares the outermost cells
+    constexpr float kCells = 1023.0f;
+    std::vector<std::uint32_t> code;
+    code.reserve(eyes.size());
+    for (const Vec3& eye : eyes) {
+        const Vec3 share = glm::clamp(eye / kWorld + 0.5f, 0.0f, 1.0f) * kCells;
+        code.push_back(spread_bits(static_cast<std::uint32_t>(share.x)) |
+                       spread_bits(static_cast<std::uint32_t>(share.y)) << 1 |
+                       spread_bits(static_cast<std::uint32_t>(share.z)) << 2);
+    }
+    std::vector<std::uint32_t> order(eyes.size());
+    std::iota(order.begin(), order.end(), 0u);
+    std::sort(order.begin(), order.end(), [&](std::uint32_t a, std::uint32_t b) {
+        return std::pair(code[a], a) < std::pair(code[b], b);
+    });
+    return order;
+}
+
 class CpuSource : public VisibilitySource {
   public:
     CpuSource(const Surface& solid, int face_px)
@@ -23,11 +55,12 @@ class CpuSource : public VisibilitySource {
 
     void look(std::span<const Vec3> eyes, std::span<EyeRecord> records) override {
         ZSKEL_ASSERT(eyes.size() == records.size(), "one record an eye");
+        const std::vector<std::uint32_t> order = order_in_space(eyes);
         parallel_for(eyes.size(), kGrain, [&](std::size_t begin, std::size_t end) {
             ZBuffer buffer(grid_);
             for (std::size_t i = begin; i < end; ++i) {
-                draw_zbuffer(clusters_, grid_, eyes[i], buffer);
-                records[i] = summarize_zbuffer(solid(), grid_, buffer);
+                draw_zbuffer(clusters_, grid_, eyes[order[i]], buffer);
+                records[order[i]] = summarize_zbuffer(solid(), grid_, buffer);
             }
         });
     }

@@ -1,0 +1,27 @@
+#include "zskel/mesh/sides.h"
+
+#include <algorithm>
+#include <tuple>
+
+#include "zskel/core/bucket_sort.h"
+
+namespace zskel {
+
+std::vector<Side> sorted_sides(std::span<const Triangle> triangles, std::size_t vertices) {
+    std::vector<Side> sides;
+    sides.reserve(triangles.size() * 3);
+    for (std::uint32_t t = 0; t < triangles.size(); ++t) {
+        for (std::uint8_t k = 0; k < 3; ++k) {
+            const std::uint32_t a = triangles[t][k];
+            const std::uint32_t b = triangles[t][(k + 1) % 3];
+            sides.push_back({{std::min(a, b), std::max(a, b)}, t, k, a < b});
+        }
+    }
+    return bucket_sorted(
+        sides, vertices, [](const Side& s) { return s.edge.x; },
+        [](const Side& l, const Side& r) {
+            return std::tie(l.edge.y, l.triangle) < std::tie(r.edge.y, r.triangle);
+        });
+}
+
+}  // namespace zskel
