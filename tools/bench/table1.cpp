@@ -127,6 +127,7 @@ struct Source {
 };
 constexpr Source kSources[] = {{"brute rays", BackendKind::Brute},
                                {"Embree", BackendKind::Ray},
+                               {"CPU Z-buffer", BackendKind::Cpu},
                                {"GL Z-buffer", BackendKind::Gl}};
 
 // Seconds of settling some seeds with each source, for one change at a time.

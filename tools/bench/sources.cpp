@@ -1,0 +1,118 @@
+// What one eye's record (force, Jacobian, nearest distance, shares) costs by each source: one
+// thread, eyes as `compare` takes them. Names are SOURCE/TEXELS ALONG A FACE/MODEL; `us_per_eye` is
+// the figure.
+//   zskel_bench_sources [Google Benchmark's options] MODEL...
+#include <benchmark/benchmark.h>
+#include <fmt/format.h>
+
+#include <cstdio>
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "zskel/compare.h"
+#include "zskel/core/error.h"
+#include "zskel/core/parallel.h"
+#include "zskel/mesh/read_mesh.h"
+#include "zskel/mesh/solid.h"
+
+namespace zskel::bench {
+namespace {
+
+struct Subject {
+    std::string name;
+    Surface surface;
+    std::vector<Vec3> eyes;
+};
+
+struct Source {
+    const char* name;
+    BackendKind kind;
+    int face_px;
+    int rays;
+};
+constexpr Source kSources[] = {
+    {"cpu", BackendKind::Cpu, 16, 0},     {"cpu", BackendKind::Cpu, 8, 0},
+    {"ray", BackendKind::Ray, 16, 0},     {"ray", BackendKind::Ray, 8, 0},
+    {"ray197", BackendKind::Ray, 0, 197}, {"gl", BackendKind::Gl, 16, 0},
+};
+constexpr int kEyes = 240;
+constexpr int kSlowEyes = 48;  // software GL
+
+std::unique_ptr<Backend> open(const Source& source) {
+    BackendOptions options;
+    options.kind = source.kind;
+    if (source.face_px > 0) options.face_px = source.face_px;
+    options.rays = source.rays;
+    return open_backend(options);
+}
+
+Subject load(const std::string& path, Backend& backend) {
+    const std::vector<Solid> solids =
+        split_solids(prepare_surface(read_mesh(path), WorldSize::Spread));
+    const auto largest =
+        std::max_element(solids.begin(), solids.end(), [](const Solid& l, const Solid& r) {
+            return l.surface.triangles.size() < r.surface.triangles.size();
+        });
+    Subject subject{fmt::format("{}:{}", std::filesystem::path(path).stem().string(),
+                                largest->surface.triangles.size()),
+                    largest->surface,
+                    {}};
+    const auto source = backend.prepare(subject.surface);
+    subject.eyes = comparison_eyes(subject.surface, *source, kEyes, {});
+    return subject;
+}
+
+void look(benchmark::State& state, const Subject& subject, const Source& source) {
+    try {
+        const auto backend = open(source);
+        const auto prepared = backend->prepare(subject.surface);
+        const bool is_slow = source.kind == BackendKind::Gl;
+        const auto eyes = std::span(subject.eyes).first(is_slow ? kSlowEyes : subject.eyes.size());
+        std::vector<EyeRecord> records(eyes.size());
+        for (auto _ : state) {
+            prepared->look(eyes, records);
+            benchmark::DoNotOptimize(records.data());
+        }
+        state.counters["us_per_eye"] = benchmark::Counter(
+            static_cast<double>(eyes.size()) * 1e-6,
+            benchmark::Counter::kIsIterationInvariantRate | benchmark::Counter::kInvert);
+        state.SetLabel(backend->info().renderer);
+    } catch (const Error& error) {
+        state.SkipWithError(error.what());
+    }
+}
+
+int run(int argc, char** argv) {
+    benchmark::Initialize(&argc, argv);
+    set_thread_limit(1);
+    try {
+        const auto backend = open(kSources[0]);
+        std::vector<std::unique_ptr<Subject>> subjects;
+        for (int i = 1; i < argc; ++i)
+            subjects.push_back(std::make_unique<Subject>(load(argv[i], *backend)));
+        for (const auto& subject : subjects) {
+            for (const Source& source : kSources) {
+                const std::string name =
+                    fmt::format("{}/{}/{}", source.name, source.face_px, subject->name);
+                benchmark::RegisterBenchmark(name.c_str(), [&subject = *subject,
+                                                            &source](benchmark::State& s) {
+                    look(s, subject, source);
+                })->UseRealTime();
+            }
+        }
+        benchmark::RunSpecifiedBenchmarks();
+        return 0;
+    } catch (const Error& error) {
+        std::fprintf(stderr, "%s\n", error.what());
+        return static_cast<int>(error.code());
+    }
+}
+
+}  // namespace
+}  // namespace zskel::bench
+
+int main(int argc, char** argv) {
+    return zskel::bench::run(argc, argv);
+}
