@@ -15,7 +15,6 @@
 namespace zskel {
 namespace {
 
-constexpr std::size_t kClusterTriangles = 64;
 constexpr std::size_t kGrain = 8;  // eyes at least that share one Z-buffer, one after the other
 
 // The low ten bits of `x`, three apart.
@@ -51,7 +50,7 @@ class CpuSource : public VisibilitySource {
     CpuSource(const Surface& solid, int face_px)
         : VisibilitySource(solid, cube_directions(face_px)),
           grid_(face_px),
-          clusters_(cluster_triangles(solid, kClusterTriangles)) {}
+          clusters_(cluster_triangles(solid)) {}
 
     void look(std::span<const Vec3> eyes, std::span<EyeRecord> records) override {
         ZSKEL_ASSERT(eyes.size() == records.size(), "one record an eye");

@@ -3,48 +3,19 @@
 #include <algorithm>
 #include <numeric>
 #include <span>
+#include <utility>
+
+#include "zskel/core/parallel.h"
 
 namespace zskel {
 namespace {
 
-void add_cluster(TriangleClusters& out, const Surface& surface,
-                 std::span<const std::uint32_t> members) {
-    const std::size_t cluster = out.first_block.size() - 1;
-    if (cluster % kBlock == 0) {
-        BoxBlock& empty = out.boxes.emplace_back();
-        for (auto& axis : empty.low) axis.fill(kInfinity);
-        for (auto& axis : empty.high) axis.fill(-kInfinity);
-    }
-    BoxBlock& boxes = out.boxes.back();
-    for (std::size_t first = 0; first < members.size(); first += kBlock) {
-        TriangleBlock& block = out.triangles.emplace_back();
-        for (std::size_t i = 0; i < kBlock; ++i) {
-            const bool padding = first + i >= members.size();
-            const std::uint32_t t = members[padding ? first : first + i];
-            const Vec3 normal = padding ? Vec3(0.0f) : surface.triangle_normals[t];
-            for (std::size_t k = 0; k < 3; ++k) {
-                const auto axis = static_cast<int>(k);
-                for (std::size_t corner = 0; corner < 3; ++corner) {
-                    const std::uint32_t v = surface.triangles[t][static_cast<int>(corner)];
-                    const float x = surface.positions[v][axis];
-                    block.corner[3 * corner + k][i] = x;
-                    float& low = boxes.low[k][cluster % kBlock];
-                    float& high = boxes.high[k][cluster % kBlock];
-                    low = std::min(low, x);
-                    high = std::max(high, x);
-                }
-                block.normal[k][i] = normal[axis];
-            }
-            block.id[i] = t;
-        }
-    }
-    out.first_block.push_back(static_cast<std::uint32_t>(out.triangles.size()));
-}
+constexpr std::size_t kGroup = kBlock * kBlock;  // triangles
 
-// Halves the members across the longest side of their centres' box, by whole blocks.
-void split(TriangleClusters& out, const Surface& surface, const std::vector<Vec3>& centers,
-           std::span<std::uint32_t> members, std::size_t most) {
-    if (members.size() <= most) return add_cluster(out, surface, members);
+using Members = std::span<std::uint32_t>;
+
+// Halves along the longest side of the centres' box, by whole groups or else by whole blocks.
+std::pair<Members, Members> halves(Members members, const std::vector<Vec3>& centers) {
     Vec3 low(kInfinity);
     Vec3 high(-kInfinity);
     for (const std::uint32_t t : members) {
@@ -53,29 +24,105 @@ void split(TriangleClusters& out, const Surface& surface, const std::vector<Vec3
     }
     const Vec3 size = high - low;
     const int axis = size.x >= size.y && size.x >= size.z ? 0 : size.y >= size.z ? 1 : 2;
-    const std::size_t half = (members.size() / 2 + kBlock - 1) / kBlock * kBlock;
+    const std::size_t unit = members.size() > kGroup ? kGroup : kBlock;
+    const std::size_t half = (members.size() / 2 + unit - 1) / unit * unit;
     std::nth_element(members.begin(), members.begin() + static_cast<std::ptrdiff_t>(half),
                      members.end(), [&](std::uint32_t a, std::uint32_t b) {
                          return std::pair(centers[a][axis], a) < std::pair(centers[b][axis], b);
                      });
-    split(out, surface, centers, members.first(half), most);
-    split(out, surface, centers, members.subspan(half), most);
+    return {members.first(half), members.subspan(half)};
+}
+
+// Parts of at most `most` members, neighbours in space next to each other in the list.
+std::vector<Members> parts_of(std::vector<Members> parts, std::size_t most,
+                              const std::vector<Vec3>& centers) {
+    const auto is_large = [&](const Members& part) { return part.size() > most; };
+    while (std::any_of(parts.begin(), parts.end(), is_large)) {
+        std::vector<std::pair<Members, Members>> split(parts.size());
+        parallel_for(parts.size(), 1, [&](std::size_t begin, std::size_t end) {
+            for (std::size_t i = begin; i < end; ++i) {
+                split[i] =
+                    is_large(parts[i]) ? halves(parts[i], centers) : std::pair(parts[i], Members());
+            }
+        });
+        parts.clear();
+        for (const auto& [first, second] : split) {
+            parts.push_back(first);
+            if (!second.empty()) parts.push_back(second);
+        }
+    }
+    return parts;
+}
+
+BoxBlock empty_boxes() {
+    BoxBlock boxes;
+    for (auto& axis : boxes.low) axis.fill(kInfinity);
+    for (auto& axis : boxes.high) axis.fill(-kInfinity);
+    return boxes;
+}
+
+// Fills a block; what is left over repeats the first triangle, without a normal.
+void fill(TriangleBlock& block, BoxBlock& boxes, std::size_t box, const Surface& surface,
+          const Members& members) {
+    for (std::size_t i = 0; i < kBlock; ++i) {
+        const bool padding = i >= members.size();
+        const std::uint32_t t = members[padding ? 0 : i];
+        const Vec3 normal = padding ? Vec3(0.0f) : surface.triangle_normals[t];
+        for (std::size_t k = 0; k < 3; ++k) {
+            const auto axis = static_cast<int>(k);
+            for (std::size_t corner = 0; corner < 3; ++corner) {
+                const std::uint32_t v = surface.triangles[t][static_cast<int>(corner)];
+                const float x = surface.positions[v][axis];
+                block.corner[3 * corner + k][i] = x;
+                boxes.low[k][box] = std::min(boxes.low[k][box], x);
+                boxes.high[k][box] = std::max(boxes.high[k][box], x);
+            }
+            block.normal[k][i] = normal[axis];
+        }
+        block.id[i] = t;
+    }
 }
 
 }  // namespace
 
-TriangleClusters cluster_triangles(const Surface& surface, std::size_t most) {
-    TriangleClusters out;
-    out.first_block.push_back(0);
+TriangleClusters cluster_triangles(const Surface& surface) {
     std::vector<Vec3> centers(surface.triangles.size());
     for (std::size_t t = 0; t < centers.size(); ++t) {
         const Triangle& tri = surface.triangles[t];
         centers[t] =
             (surface.positions[tri.x] + surface.positions[tri.y] + surface.positions[tri.z]) / 3.0f;
     }
-    std::vector<std::uint32_t> members(surface.triangles.size());
-    std::iota(members.begin(), members.end(), 0u);
-    split(out, surface, centers, members, most);
+    std::vector<std::uint32_t> order(surface.triangles.size());
+    std::iota(order.begin(), order.end(), 0u);
+    const std::vector<Members> groups = parts_of({Members(order)}, kGroup, centers);
+    TriangleClusters out;
+    out.first_block.push_back(0);
+    for (const Members& group : groups) {
+        const std::size_t blocks = (group.size() + kBlock - 1) / kBlock;
+        out.first_block.push_back(out.first_block.back() + static_cast<std::uint32_t>(blocks));
+    }
+    out.triangles.resize(out.first_block.back());
+    out.block_boxes.assign(groups.size(), empty_boxes());
+    out.group_boxes.assign((groups.size() + kBlock - 1) / kBlock, empty_boxes());
+    parallel_for(groups.size(), 1, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t g = begin; g < end; ++g) {
+            std::size_t box = 0;
+            for (const Members& block : parts_of({groups[g]}, kBlock, centers)) {
+                fill(out.triangles[out.first_block[g] + box], out.block_boxes[g], box, surface,
+                     block);
+                ++box;
+            }
+        }
+    });
+    for (std::size_t g = 0; g < groups.size(); ++g) {
+        BoxBlock& boxes = out.group_boxes[g / kBlock];
+        for (std::size_t k = 0; k < 3; ++k) {
+            const auto& low = out.block_boxes[g].low[k];
+            const auto& high = out.block_boxes[g].high[k];
+            boxes.low[k][g % kBlock] = *std::min_element(low.begin(), low.end());
+            boxes.high[k][g % kBlock] = *std::max_element(high.begin(), high.end());
+        }
+    }
     return out;
 }
 

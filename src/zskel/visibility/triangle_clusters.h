@@ -20,25 +20,24 @@ struct TriangleBlock {
     std::array<std::uint32_t, kBlock> id;             ///< in the surface
 };
 
-/// The boxes of sixteen clusters.
+/// The boxes of sixteen blocks, or of sixteen groups of blocks.
 struct BoxBlock {
     std::array<std::array<float, kBlock>, 3> low;
     std::array<std::array<float, kBlock>, 3> high;
 };
 
-/// A surface's triangles in clusters that lie close together: what an eye cannot see is left out by
-/// the cluster. World space.
+/// A surface's triangles in blocks that lie close together, and these in groups of up to sixteen:
+/// what an eye cannot see is left out by the group, then by the block. World space.
 struct TriangleClusters {
     AlignedVector<TriangleBlock> triangles;
-    AlignedVector<BoxBlock> boxes;           ///< padded with boxes at infinity
-    std::vector<std::uint32_t> first_block;  ///< of every cluster, and one past the last
-
-    std::size_t size() const { return first_block.size() - 1; }
+    AlignedVector<BoxBlock> block_boxes;     ///< one for each group
+    AlignedVector<BoxBlock> group_boxes;     ///< one for sixteen groups
+    std::vector<std::uint32_t> first_block;  ///< of every group, and one past the last
 };
 
-/// Halves the triangles by place until clusters are small: meshoptimizer's meshlets measure the
-/// same, within 2 %, and lose the triangles' numbers. O(n log n).
-/// @param most  triangles a cluster, at most; a multiple of kBlock.
-TriangleClusters cluster_triangles(const Surface& surface, std::size_t most);
+/// Halves the triangles by place until they fill single blocks. O(n log n).
+/// (meshoptimizer's meshlets as clusters measured the same, within 2 %, and lose the triangles'
+/// numbers.)
+TriangleClusters cluster_triangles(const Surface& surface);
 
 }  // namespace zskel

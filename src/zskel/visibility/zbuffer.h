@@ -38,14 +38,14 @@ struct ZBuffer {
 
     struct Candidate {
         float inverse_near;  ///< 1 / (least axial depth of its box)
-        std::uint32_t cluster;
+        std::uint32_t group;
         std::array<std::uint16_t, 4> rect;  ///< first and last column, first and last row
     };
-    std::array<std::vector<Candidate>, 6> candidates;  ///< scratch
+    std::array<std::vector<Candidate>, 6> candidates;  ///< scratch, for each face
     std::vector<std::uint32_t> order;                  ///< scratch
 };
 
-/// Draws everything that `eye` sees, nearest clusters first.
+/// Draws everything that `eye` sees, nearest groups first.
 void draw_zbuffer(const TriangleClusters& clusters, const TexelGrid& grid, const Vec3& eye,
                   ZBuffer& buffer);
 

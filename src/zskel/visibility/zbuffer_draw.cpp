@@ -31,6 +31,13 @@ constexpr float kLeastAxial = 1e-12f;
 constexpr float kSlack = 3e-4f;
 constexpr float kPadding = 1e15f;
 
+template <typename Mask>
+unsigned bits_of(Mask mask) {
+    std::uint8_t bits[8] = {};
+    hn::StoreMaskBits(Tag(), mask, bits);
+    return bits[0] | (static_cast<unsigned>(bits[1]) << 8);
+}
+
 // Where on a face something may show; in texels, as floats.
 struct Rect {
     F first_column, last_column, first_row, last_row;
@@ -70,69 +77,80 @@ struct FaceGrid {
     }
 };
 
-// The clusters whose box holds a texel's centre, for each face.
-void list_candidates(const TriangleClusters& clusters, const TexelGrid& grid, const Vec3& eye,
-                     ZBuffer& buffer) {
+// Sixteen boxes as an eye sees them.
+struct BoxesFrom {
+    BoxesFrom(const BoxBlock& boxes, std::size_t o, const Vec3& eye) {
+        const Tag d;
+        for (int k = 0; k < 3; ++k) {
+            const F e = hn::Set(d, eye[k]);
+            low[k] = hn::Sub(hn::Load(d, &boxes.low[k][o]), e);
+            high[k] = hn::Sub(hn::Load(d, &boxes.high[k][o]), e);
+        }
+    }
+    F low[3];
+    F high[3];
+};
+
+// Calls `take(lane, candidate)` for every box that holds a texel's centre of a face; the candidate
+// has no group yet.
+template <typename Take>
+void for_each_shown(const BoxesFrom& boxes, const FaceAxes& face, const FaceGrid& texels,
+                    const Take& take) {
     const Tag d;
-    const std::size_t lanes = hn::Lanes(d);
+    const IntTag di;
+    const F zero = hn::Zero(d);
+    const F one = hn::Set(d, 1.0f);
+    F lo[3];
+    F hi[3];
+    for (int k = 0; k < 3; ++k) {
+        const int axis = face.axis[k];
+        lo[k] = face.sign[k] > 0.0f ? boxes.low[axis] : hn::Neg(boxes.high[axis]);
+        hi[k] = face.sign[k] > 0.0f ? boxes.high[axis] : hn::Neg(boxes.low[axis]);
+    }
+    auto shows = hn::Gt(hi[2], zero);
+    if (hn::AllFalse(d, shows)) return;
+    const F near_inverse = hn::IfThenElse(hn::Gt(lo[2], hn::Set(d, kLeastAxial)),
+                                          hn::Div(one, lo[2]), hn::Set(d, 1.0f / kLeastAxial));
+    const F far_inverse = hn::Div(one, hi[2]);
+    const auto low_edge = [&](F a) {
+        return hn::Mul(a, hn::IfThenElse(hn::Lt(a, zero), near_inverse, far_inverse));
+    };
+    const auto high_edge = [&](F a) {
+        return hn::Mul(a, hn::IfThenElse(hn::Gt(a, zero), near_inverse, far_inverse));
+    };
+    const Rect r{texels.first(low_edge(lo[0])), texels.past(high_edge(hi[0])),
+                 texels.first(low_edge(lo[1])), texels.past(high_edge(hi[1]))};
+    shows = hn::And(
+        shows, hn::And(hn::Le(r.first_column, r.last_column), hn::Le(r.first_row, r.last_row)));
+    if (hn::AllFalse(d, shows)) return;
+    HWY_ALIGN float inverse_near[kBlock];
+    HWY_ALIGN std::int32_t rect[4][kBlock];
+    hn::Store(near_inverse, d, inverse_near);
+    hn::Store(hn::ConvertTo(di, r.first_column), di, rect[0]);
+    hn::Store(hn::ConvertTo(di, r.last_column), di, rect[1]);
+    hn::Store(hn::ConvertTo(di, r.first_row), di, rect[2]);
+    hn::Store(hn::ConvertTo(di, r.last_row), di, rect[3]);
+    for (unsigned mask = bits_of(shows); mask != 0; mask &= mask - 1) {
+        const std::size_t i = hwy::Num0BitsBelowLS1Bit_Nonzero32(mask);
+        ZBuffer::Candidate c{inverse_near[i], 0, {}};
+        for (std::size_t k = 0; k < 4; ++k) c.rect[k] = static_cast<std::uint16_t>(rect[k][i]);
+        take(i, c);
+    }
+}
+
+void list_groups(const TriangleClusters& clusters, const TexelGrid& grid, const Vec3& eye,
+                 ZBuffer& buffer) {
     const FaceGrid texels(grid.face_px);
     for (auto& list : buffer.candidates) list.clear();
-    HWY_ALIGN float inverse_near[kBlock];
-    HWY_ALIGN float rect[4][kBlock];
-    for (std::size_t b = 0; b < clusters.boxes.size(); ++b) {
-        const BoxBlock& boxes = clusters.boxes[b];
-        for (std::size_t o = 0; o < kBlock; o += lanes) {
-            F low[3];
-            F high[3];
-            for (int k = 0; k < 3; ++k) {
-                const F e = hn::Set(d, eye[k]);
-                low[k] = hn::Sub(hn::Load(d, &boxes.low[k][o]), e);
-                high[k] = hn::Sub(hn::Load(d, &boxes.high[k][o]), e);
-            }
+    for (std::size_t b = 0; b < clusters.group_boxes.size(); ++b) {
+        for (std::size_t o = 0; o < kBlock; o += hn::Lanes(Tag())) {
+            const BoxesFrom boxes(clusters.group_boxes[b], o, eye);
             for (std::size_t f = 0; f < 6; ++f) {
-                const FaceAxes& face = grid.faces[f];
-                F lo[3];
-                F hi[3];
-                for (int k = 0; k < 3; ++k) {
-                    const int axis = face.axis[k];
-                    lo[k] = face.sign[k] > 0.0f ? low[axis] : hn::Neg(high[axis]);
-                    hi[k] = face.sign[k] > 0.0f ? high[axis] : hn::Neg(low[axis]);
-                }
-                const F zero = hn::Zero(d);
-                auto shows = hn::Gt(hi[2], zero);
-                if (hn::AllFalse(d, shows)) continue;
-                const F one = hn::Set(d, 1.0f);
-                const F near_inverse =
-                    hn::IfThenElse(hn::Gt(lo[2], hn::Set(d, kLeastAxial)), hn::Div(one, lo[2]),
-                                   hn::Set(d, 1.0f / kLeastAxial));
-                const F far_inverse = hn::Div(one, hi[2]);
-                const auto low_edge = [&](F a) {
-                    return hn::Mul(a, hn::IfThenElse(hn::Lt(a, zero), near_inverse, far_inverse));
-                };
-                const auto high_edge = [&](F a) {
-                    return hn::Mul(a, hn::IfThenElse(hn::Gt(a, zero), near_inverse, far_inverse));
-                };
-                const Rect r{texels.first(low_edge(lo[0])), texels.past(high_edge(hi[0])),
-                             texels.first(low_edge(lo[1])), texels.past(high_edge(hi[1]))};
-                shows = hn::And(shows, hn::And(hn::Le(r.first_column, r.last_column),
-                                               hn::Le(r.first_row, r.last_row)));
-                if (hn::AllFalse(d, shows)) continue;
-                hn::Store(near_inverse, d, inverse_near);
-                hn::Store(r.first_column, d, rect[0]);
-                hn::Store(r.last_column, d, rect[1]);
-                hn::Store(r.first_row, d, rect[2]);
-                hn::Store(r.last_row, d, rect[3]);
-                std::uint8_t bits[8] = {};
-                hn::StoreMaskBits(d, shows, bits);
-                unsigned mask = bits[0] | (static_cast<unsigned>(bits[1]) << 8);
-                for (; mask != 0; mask &= mask - 1) {
-                    const auto i =
-                        static_cast<std::size_t>(hwy::Num0BitsBelowLS1Bit_Nonzero32(mask));
-                    ZBuffer::Candidate& c = buffer.candidates[f].emplace_back();
-                    c.inverse_near = inverse_near[i];
-                    c.cluster = static_cast<std::uint32_t>(b * kBlock + o + i);
-                    for (int k = 0; k < 4; ++k) c.rect[k] = static_cast<std::uint16_t>(rect[k][i]);
-                }
+                for_each_shown(boxes, grid.faces[f], texels,
+                               [&](std::size_t lane, ZBuffer::Candidate c) {
+                                   c.group = static_cast<std::uint32_t>(b * kBlock + o + lane);
+                                   buffer.candidates[f].push_back(c);
+                               });
             }
         }
     }
@@ -167,7 +185,7 @@ void sort_near_to_far(const std::vector<ZBuffer::Candidate>& list,
         order[start[bucket_of(list[i].inverse_near)]++] = i;
 }
 
-// Whether all that is in the cluster's rectangle is nearer than the cluster can be.
+// Whether all that is in the candidate's rectangle is nearer than the candidate can be.
 bool is_hidden(const ZBuffer::Candidate& c, const TexelGrid& grid, const float* depth) {
     const Tag d;
     const std::size_t lanes = hn::Lanes(d);
@@ -345,13 +363,6 @@ class FaceDrawer {
         }
     }
 
-    template <typename Mask>
-    static unsigned bits_of(Mask mask) {
-        std::uint8_t bits[8] = {};
-        hn::StoreMaskBits(Tag(), mask, bits);
-        return bits[0] | (static_cast<unsigned>(bits[1]) << 8);
-    }
-
     void draw_rows(const float (&lines)[12][kBlock], const std::int32_t (&rects)[4][kBlock],
                    std::size_t i, std::uint32_t triangle) const {
         const Tag d;
@@ -410,7 +421,8 @@ void draw(const TriangleClusters& clusters, const TexelGrid& grid, const Vec3& e
                 grid.stride - n, kPadding);
         }
     }
-    list_candidates(clusters, grid, eye, buffer);
+    list_groups(clusters, grid, eye, buffer);
+    const FaceGrid texels(grid.face_px);
     for (std::size_t f = 0; f < 6; ++f) {
         float* depth = &buffer.inverse_depth[f * n * grid.stride];
         std::uint32_t* id = &buffer.id[f * n * grid.stride];
@@ -419,9 +431,16 @@ void draw(const TriangleClusters& clusters, const TexelGrid& grid, const Vec3& e
         sort_near_to_far(list, buffer.order);
         for (const std::uint32_t i : buffer.order) {
             if (is_hidden(list[i], grid, depth)) continue;
-            const std::uint32_t end = clusters.first_block[list[i].cluster + 1];
-            for (std::uint32_t b = clusters.first_block[list[i].cluster]; b < end; ++b)
-                drawer.draw(clusters.triangles[b]);
+            const std::uint32_t group = list[i].group;
+            for (std::size_t o = 0; o < kBlock; o += hn::Lanes(Tag())) {
+                const BoxesFrom boxes(clusters.block_boxes[group], o, eye);
+                for_each_shown(
+                    boxes, grid.faces[f], texels,
+                    [&](std::size_t lane, const ZBuffer::Candidate& c) {
+                        if (is_hidden(c, grid, depth)) return;
+                        drawer.draw(clusters.triangles[clusters.first_block[group] + o + lane]);
+                    });
+            }
         }
     }
 }
