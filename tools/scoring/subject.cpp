@@ -33,7 +33,8 @@ Surface surface_in_diagonals(const std::vector<Solid>& solids) {
     const double scale = 1.0 / diagonal_of(whole.positions);
     for (Vec3& p : whole.positions) p = Vec3(DVec3(p) * scale);
     whole.world_from_model.scale *= scale;
-    derive_normals_and_edges(whole);
+    derive_normals(whole);
+    derive_edges(whole);
     return whole;
 }
 

@@ -32,9 +32,9 @@ bool find_sides(const Surface& surface, EdgeSides& sides) {
     bool is_manifold = true;
     for_each_edge(all, [&](std::size_t first, std::size_t last) {
         is_manifold =
-            is_manifold && last - first == 2 && all[first].forward != all[first + 1].forward;
+            is_manifold && last - first == 2 && all[first].is_forward != all[first + 1].is_forward;
         for (std::size_t i = first; i < last; ++i) {
-            (all[i].forward ? sides.left[e] : sides.right[e]) = all[i].triangle;
+            (all[i].is_forward ? sides.left[e] : sides.right[e]) = all[i].triangle;
             sides.triangle_edges[all[i].triangle][all[i].corner] = e;
         }
         ++e;

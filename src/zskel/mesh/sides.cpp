@@ -11,9 +11,11 @@ std::vector<Side> sorted_sides(std::span<const Triangle> triangles, std::size_t 
     std::vector<Side> sides;
     sides.reserve(triangles.size() * 3);
     for (std::uint32_t t = 0; t < triangles.size(); ++t) {
+        const Triangle& corners = triangles[t];
+        if (corners.x == corners.y || corners.y == corners.z || corners.z == corners.x) continue;
         for (std::uint8_t k = 0; k < 3; ++k) {
-            const std::uint32_t a = triangles[t][k];
-            const std::uint32_t b = triangles[t][(k + 1) % 3];
+            const std::uint32_t a = corners[k];
+            const std::uint32_t b = corners[(k + 1) % 3];
             sides.push_back({{std::min(a, b), std::max(a, b)}, t, k, a < b});
         }
     }

@@ -13,11 +13,19 @@ struct Side {
     glm::uvec2 edge;  ///< lower vertex first
     std::uint32_t triangle;
     std::uint8_t corner;  ///< that it runs from
-    bool forward;         ///< that corner is the lower vertex
+    bool is_forward;      ///< that corner is the lower vertex
+
+    /// The corners at its ends, as 3 x triangle + place.
+    std::uint32_t low_corner() const { return is_forward ? from() : to(); }
+    std::uint32_t high_corner() const { return is_forward ? to() : from(); }
+
+  private:
+    std::uint32_t from() const { return 3 * triangle + corner; }
+    std::uint32_t to() const { return 3 * triangle + (corner + 1u) % 3u; }
 };
 
-/// All sides of `triangles`, each of three different vertices below `vertices`, by edge, then by
-/// triangle. O(n) where no vertex has many triangles.
+/// All sides of `triangles`, whose vertices are below `vertices`, by edge, then by triangle; those
+/// of triangles that repeat a corner are left out. O(n) where no vertex has many triangles.
 std::vector<Side> sorted_sides(std::span<const Triangle> triangles, std::size_t vertices);
 
 /// Calls `visit(first, last)` for each run of sides that share an edge.

@@ -57,17 +57,11 @@ bool contains(const std::vector<Vec3>& positions, const Component& outer, const 
 void part_fans(Solid& solid) {
     std::vector<Triangle>& triangles = solid.surface.triangles;
     const std::vector<Side> sides = sorted_sides(triangles, solid.vertex.size());
-    const auto low = [](const Side& s) {
-        return 3 * s.triangle + (s.forward ? s.corner : (s.corner + 1u) % 3u);
-    };
-    const auto high = [](const Side& s) {
-        return 3 * s.triangle + (s.forward ? (s.corner + 1u) % 3u : s.corner);
-    };
     DisjointSets fans(triangles.size() * 3);
     for (std::size_t i = 1; i < sides.size(); ++i) {
         if (sides[i].edge != sides[i - 1].edge) continue;
-        fans.unite(low(sides[i]), low(sides[i - 1]));
-        fans.unite(high(sides[i]), high(sides[i - 1]));
+        fans.unite(sides[i].low_corner(), sides[i - 1].low_corner());
+        fans.unite(sides[i].high_corner(), sides[i - 1].high_corner());
     }
     std::vector<bool> is_taken(solid.vertex.size(), false);
     std::vector<std::uint32_t> of_fan(triangles.size() * 3, kNone);
@@ -87,13 +81,14 @@ void part_fans(Solid& solid) {
 
 // Parts the fans, and derives what follows from the vertices when that is not known yet.
 void finish(Solid& solid, const PreparedSurface& prepared) {
-    part_fans(solid);
+    if (!prepared.fans_are_whole) part_fans(solid);
     Surface& surface = solid.surface;
     if (surface.positions.size() == solid.vertex.size()) return;
     surface.positions.clear();
     for (const std::uint32_t v : solid.vertex)
         surface.positions.push_back(prepared.surface.positions[v]);
-    derive_normals_and_edges(surface);
+    derive_normals(surface);
+    derive_edges(surface);
 }
 
 // The only part of a surface: all of it.

@@ -9,6 +9,7 @@
 #include <tuple>
 
 #include "zskel/core/bucket_sort.h"
+#include "zskel/core/disjoint_sets.h"
 #include "zskel/core/error.h"
 #include "zskel/mesh/sides.h"
 #include "zskel/mesh/weld.h"
@@ -112,6 +113,18 @@ double signed_volume(const Welded& welded, const std::vector<std::uint32_t>& mem
     return volume;
 }
 
+// Whether the triangles at every vertex hang together over edges.
+bool has_whole_fans(const std::vector<Side>& sides, const Welded& welded) {
+    DisjointSets corners(welded.triangles.size() * 3);
+    std::size_t fans = welded.triangles.size() * 3;
+    for (std::size_t i = 1; i < sides.size(); ++i) {
+        if (sides[i].edge != sides[i - 1].edge) continue;
+        fans -= corners.unite(sides[i].low_corner(), sides[i - 1].low_corner()) ? 1 : 0;
+        fans -= corners.unite(sides[i].high_corner(), sides[i - 1].high_corner()) ? 1 : 0;
+    }
+    return fans == welded.positions.size();
+}
+
 // Walks every component over edges with two triangles, turning neighbours that disagree, then turns
 // the whole component when it faces inward.
 void orient(Welded& welded, PreparedSurface& out) {
@@ -127,6 +140,7 @@ void orient(Welded& welded, PreparedSurface& out) {
     std::size_t crowded_edges = 0;
     for_each_edge(sides, [&](std::size_t first, std::size_t last) {
         const std::size_t count = last - first;
+        out.surface.edges.push_back(sides[first].edge);
         open_edges += count == 1 ? 1 : 0;
         crowded_edges += count > 2 ? 1 : 0;
         for (std::size_t i = first; i < last && count != 2; ++i) {
@@ -137,6 +151,7 @@ void orient(Welded& welded, PreparedSurface& out) {
             ++first_link[sides[i + 1].triangle + 1];
         }
     });
+    out.fans_are_whole = has_whole_fans(sides, welded);
     std::partial_sum(first_link.begin(), first_link.end(), first_link.begin());
     std::vector<Link> links(first_link.back());
     std::vector<std::uint32_t> next_link(first_link.begin(), first_link.end() - 1);
@@ -144,7 +159,7 @@ void orient(Welded& welded, PreparedSurface& out) {
         for (std::size_t i = first; i + 1 < last; ++i) {
             const Side& a = sides[i];
             const Side& b = sides[i + 1];
-            const bool agrees = a.forward != b.forward || last - first > 2;
+            const bool agrees = a.is_forward != b.is_forward || last - first > 2;
             links[next_link[a.triangle]++] = {b.triangle, agrees};
             links[next_link[b.triangle]++] = {a.triangle, agrees};
         }
@@ -270,7 +285,7 @@ PreparedSurface prepare_surface(const Mesh& mesh, WorldSize size) {
         out.surface.positions.push_back(out.surface.world_from_model.to_world(p));
     }
     out.surface.triangles = std::move(welded.triangles);
-    derive_normals_and_edges(out.surface);
+    derive_normals(out.surface);
     const bool flat =
         std::all_of(out.surface.triangle_normals.begin(), out.surface.triangle_normals.end(),
                     [](const Vec3& n) { return n == Vec3(0.0f); });
@@ -278,7 +293,7 @@ PreparedSurface prepare_surface(const Mesh& mesh, WorldSize size) {
     return out;
 }
 
-void derive_normals_and_edges(Surface& surface) {
+void derive_normals(Surface& surface) {
     surface.triangle_normals.assign(surface.triangles.size(), Vec3(0.0f));
     std::vector<DVec3> sums(surface.positions.size(), DVec3(0.0));
     for (std::size_t t = 0; t < surface.triangles.size(); ++t) {
@@ -302,6 +317,9 @@ void derive_normals_and_edges(Surface& surface) {
         const double length = glm::length(sum);
         surface.vertex_normals.emplace_back(length > 0.0 ? Vec3(sum / length) : Vec3(0.0f));
     }
+}
+
+void derive_edges(Surface& surface) {
     surface.edges.clear();
     const std::vector<Side> sides = sorted_sides(surface.triangles, surface.positions.size());
     for_each_edge(

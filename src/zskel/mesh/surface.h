@@ -44,6 +44,7 @@ struct PreparedSurface {
     std::vector<std::uint32_t> component;       ///< of every triangle: parts joined by edges
     std::uint32_t component_count = 0;
     std::vector<bool> component_closed;  ///< every edge has exactly two triangles
+    bool fans_are_whole = false;         ///< the triangles at every vertex hang together over edges
     std::vector<Repair> repairs;
 };
 
@@ -60,7 +61,10 @@ inline constexpr double kWorldSpread = 0.3;
 /// @throws InputError when no triangle with area is left.
 PreparedSurface prepare_surface(const Mesh& mesh, WorldSize size = WorldSize::UnitCube);
 
-/// Fills normals and edges from positions and triangles.
-void derive_normals_and_edges(Surface& surface);
+/// Fills the normals from positions and triangles.
+void derive_normals(Surface& surface);
+
+/// Fills the edges from the triangles.
+void derive_edges(Surface& surface);
 
 }  // namespace zskel

@@ -7,22 +7,16 @@
 #include <algorithm>
 #include <array>
 #include <numeric>
-#include <tuple>
 
 #include "zskel/core/assert.h"
+#include "zskel/core/disjoint_sets.h"
+#include "zskel/core/edges.h"
+#include "zskel/mesh/sides.h"
 
 namespace zskel {
 namespace {
 
 using HalfEdgeMesh = OpenMesh::TriMesh_ArrayKernelT<>;
-
-/// One side of a triangle: from corner `corner` to the next.
-struct Side {
-    glm::uvec2 edge;  // lower vertex first
-    std::uint32_t triangle;
-    std::uint8_t corner;
-    bool is_forward;  // runs from the lower to the higher vertex
-};
 
 /// Two triangles at an edge that no third one shares.
 struct Link {
@@ -31,48 +25,8 @@ struct Link {
     bool agrees() const { return left.is_forward != right.is_forward; }
 };
 
-class DisjointSets {
-  public:
-    explicit DisjointSets(std::size_t size) : parent_(size) {
-        std::iota(parent_.begin(), parent_.end(), std::size_t{0});
-    }
-    std::size_t find(std::size_t i) {
-        while (parent_[i] != i) i = parent_[i] = parent_[parent_[i]];
-        return i;
-    }
-    /// The lower root stays, so that sets are numbered by their first member.
-    void join(std::size_t a, std::size_t b) {
-        const auto [low, high] = std::minmax({find(a), find(b)});
-        parent_[high] = low;
-    }
-
-  private:
-    std::vector<std::size_t> parent_;
-};
-
-bool comes_before(const glm::uvec2& a, const glm::uvec2& b) {
-    return std::tie(a.x, a.y) < std::tie(b.x, b.y);
-}
-
 bool has_three_corners(const Triangle& t) {
     return t.x != t.y && t.y != t.z && t.z != t.x;
-}
-
-std::vector<Side> sorted_sides(std::span<const Triangle> triangles) {
-    std::vector<Side> sides;
-    sides.reserve(triangles.size() * 3);
-    for (std::uint32_t t = 0; t < triangles.size(); ++t) {
-        if (!has_three_corners(triangles[t])) continue;
-        for (std::uint8_t k = 0; k < 3; ++k) {
-            const std::uint32_t a = triangles[t][k];
-            const std::uint32_t b = triangles[t][(k + 1) % 3];
-            sides.push_back({{std::min(a, b), std::max(a, b)}, t, k, a < b});
-        }
-    }
-    std::sort(sides.begin(), sides.end(), [](const Side& l, const Side& r) {
-        return std::tie(l.edge.x, l.edge.y, l.triangle) < std::tie(r.edge.x, r.edge.y, r.triangle);
-    });
-    return sides;
 }
 
 /// Hides OpenMesh's own messages as long as it lives.
@@ -98,7 +52,7 @@ class TopologyFinder {
           fans_(triangles.size() * 3) {}
 
     Topology find() {
-        const std::vector<Side> sides = sorted_sides(triangles_);
+        const std::vector<Side> sides = sorted_sides(triangles_, vertex_count_);
         collect_edges(sides);
         number_components();
         mark_edges(sides);
@@ -129,7 +83,7 @@ class TopologyFinder {
 
     void collect_edges(const std::vector<Side>& sides) {
         for_each_edge(sides, [this](std::span<const Side> edge) {
-            for (const Side& side : edge) parts_.join(edge[0].triangle, side.triangle);
+            for (const Side& side : edge) parts_.unite(edge[0].triangle, side.triangle);
             if (edge.size() == 1) out_.boundary_edges.push_back(edge[0].edge);
             if (edge.size() == 2) links_.push_back({edge[0], edge[1]});
             if (edge.size() > 2) out_.non_manifold_edges.push_back(edge[0].edge);
@@ -241,7 +195,7 @@ class TopologyFinder {
 
     void join_corners(DisjointSets& sets, const Link& link) const {
         for (const bool at_lower : {true, false}) {
-            sets.join(corner_of(link.left, at_lower), corner_of(link.right, at_lower));
+            sets.unite(corner_of(link.left, at_lower), corner_of(link.right, at_lower));
         }
     }
 
@@ -358,7 +312,7 @@ class TopologyFinder {
         for (std::size_t i = 0; i < loop.size(); ++i) {
             const auto [low, high] = std::minmax({loop[i], loop[(i + 1) % loop.size()]});
             const glm::uvec2 edge(low, high);
-            if (std::binary_search(edges.begin(), edges.end(), edge, comes_before)) return true;
+            if (std::binary_search(edges.begin(), edges.end(), edge, edge_before)) return true;
         }
         return false;
     }

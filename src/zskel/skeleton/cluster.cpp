@@ -1,8 +1,10 @@
 #include "zskel/skeleton/cluster.h"
 
 #include <algorithm>
+#include <functional>
+#include <optional>
 #include <queue>
-#include <tuple>
+#include <utility>
 
 namespace zskel {
 namespace {
@@ -11,8 +13,9 @@ struct Pair {
     double distance;  // over the range
     std::uint32_t a;  // cluster names: their number in order of making, points first
     std::uint32_t b;
+    std::uint64_t name() const { return std::uint64_t{a} << 32 | b; }
     bool operator>(const Pair& other) const {
-        return std::tie(distance, a, b) > std::tie(other.distance, other.a, other.b);
+        return distance != other.distance ? distance > other.distance : name() > other.name();
     }
 };
 
@@ -35,11 +38,13 @@ class Merger {
         for (std::size_t i = 0; i < points.size(); ++i) {
             clusters_.push_back({DVec3(points[i]), static_cast<double>(ranges[i]), 1.0, {}, kNone});
         }
+        std::vector<Pair> pairs;
         for (const glm::uvec2& link : links) {
             clusters_[link.x].neighbours.push_back(link.y);
             clusters_[link.y].neighbours.push_back(link.x);
-            offer(link.x, link.y);
+            if (const auto pair = pair_of(link.x, link.y)) pairs.push_back(*pair);
         }
+        queue_ = Queue(std::greater<>(), std::move(pairs));
     }
 
     void run() {
@@ -67,12 +72,14 @@ class Merger {
     const Cluster& at(std::uint32_t cluster) const { return clusters_[cluster]; }
 
   private:
-    void offer(std::uint32_t a, std::uint32_t b) {
+    using Queue = std::priority_queue<Pair, std::vector<Pair>, std::greater<>>;
+
+    // Two clusters that are near enough to become one.
+    std::optional<Pair> pair_of(std::uint32_t a, std::uint32_t b) const {
         const double distance = glm::distance(clusters_[a].center(), clusters_[b].center());
         const double range = std::min(clusters_[a].range(), clusters_[b].range());
-        if (distance > range) return;
-        const double share = range > 0.0 ? distance / range : 0.0;
-        queue_.push({share, std::min(a, b), std::max(a, b)});
+        if (distance > range) return std::nullopt;
+        return Pair{range > 0.0 ? distance / range : 0.0, std::min(a, b), std::max(a, b)};
     }
 
     // A merged pair gets a new name, so that entries in the queue for its parts are known to be
@@ -99,12 +106,12 @@ class Merger {
         clusters_.push_back(std::move(merged));
         for (const std::uint32_t n : clusters_[name].neighbours) {
             clusters_[n].neighbours.push_back(name);
-            offer(name, n);
+            if (const auto pair = pair_of(name, n)) queue_.push(*pair);
         }
     }
 
     std::vector<Cluster> clusters_;
-    std::priority_queue<Pair, std::vector<Pair>, std::greater<>> queue_;
+    Queue queue_;
 };
 
 }  // namespace

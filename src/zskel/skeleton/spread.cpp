@@ -2,8 +2,9 @@
 
 #include <algorithm>
 #include <bit>
-#include <functional>
+#include <cmath>
 #include <queue>
+#include <utility>
 
 #include "zskel/mesh/vertex_graph.h"
 
@@ -25,77 +26,127 @@ std::uint32_t vertex_of(Entry entry) {
 class Spreader {
   public:
     Spreader(const Surface& surface, std::span<const float> thickness)
-        : surface_(surface),
-          thickness_(thickness),
-          graph_(surface.positions.size(), surface.edges),
-          distance_(surface.positions.size(), kInfinity) {
-        lengths_.reserve(surface.edges.size());
-        for (const glm::uvec2& e : surface.edges) lengths_.push_back(length(e.x, e.y));
-        out_.seed_of.assign(surface.positions.size(), kNone);
-        out_.parent.assign(surface.positions.size(), kNone);
-    }
-
-    // A front grows from the new seed as far as it is the nearest one.
-    void add(std::uint32_t vertex) {
-        const auto seed = static_cast<std::uint32_t>(out_.vertices.size());
-        out_.vertices.push_back(vertex);
-        reach(vertex, 0.0f, seed, vertex);
-        front_.push(entry_of(0.0f, vertex));
-        while (!front_.empty()) {
-            const float distance = distance_of(front_.top());
-            const std::uint32_t v = vertex_of(front_.top());
-            front_.pop();
-            if (distance > distance_[v] || out_.seed_of[v] != seed) continue;
-            for (const VertexGraph::Link& link : graph_.of(v)) {
-                const float along = distance + lengths_[link.edge];
-                // What hangs on a vertex goes with it, even where rounding makes the ways equal.
-                const bool is_child = out_.parent[link.vertex] == v;
-                const float known = distance_[link.vertex];
-                if (along > known || (along == known && !is_child)) continue;
-                reach(link.vertex, along, seed, v);
-                front_.push(entry_of(along, link.vertex));
+        : reached_(surface.positions.size()) {
+        const VertexGraph graph(surface.positions.size(), surface.edges);
+        first_.reserve(graph.size() + 1);
+        links_.reserve(surface.edges.size() * 2);
+        for (std::uint32_t v = 0; v < graph.size(); ++v) {
+            first_.push_back(static_cast<std::uint32_t>(links_.size()));
+            for (const VertexGraph::Link& link : graph.of(v)) {
+                const std::uint32_t other = link.vertex;
+                const float along = glm::distance(surface.positions[v], surface.positions[other]);
+                links_.push_back({other, 2.0f * along / (thickness[v] + thickness[other])});
             }
         }
+        first_.push_back(static_cast<std::uint32_t>(links_.size()));
+        double sum = 0.0;
+        for (const Link& link : links_) sum += static_cast<double>(link.length);
+        const double mean = links_.empty() ? 0.0 : sum / static_cast<double>(links_.size());
+        if (mean > 0.0 && std::isfinite(mean)) bucket_width_ = static_cast<float>(mean);
     }
 
-    // The vertex that is farthest from every seed; stale entries of the queue are put right as they
-    // come up.
+    // A front grows from the new seed as far as it is the nearest one. Its vertices wait in buckets
+    // of about an edge's length; within one they may be put right again.
+    void add(std::uint32_t vertex) {
+        const auto seed = static_cast<std::uint32_t>(seeds_.size());
+        seeds_.push_back(vertex);
+        reached_[vertex] = {0.0f, seed, vertex};
+        push(0, vertex);
+        for (std::size_t b = 0; b < front_.size(); ++b) {
+            for (std::size_t i = 0; i < front_[b].size(); ++i) {
+                const std::uint32_t v = front_[b][i];
+                const Reached here = reached_[v];
+                if (here.seed == seed && bucket_of(here.distance) == b) grow(v, here);
+            }
+            front_[b].clear();
+            if (b >= last_bucket_) break;
+        }
+        last_bucket_ = 0;
+    }
+
+    // The vertex that is farthest from every seed; of several the lowest. The queue holds all that
+    // are at least `queued_from_` away, since distances only shrink; stale entries are put right as
+    // they come up.
     std::uint32_t farthest() {
-        if (far_.empty()) {
-            for (std::uint32_t v = 0; v < distance_.size(); ++v)
-                far_.push(entry_of(distance_[v], ~v));
-        }
         while (true) {
+            if (far_.empty()) queue_far_ones();
             const std::uint32_t v = ~vertex_of(far_.top());
-            if (distance_of(far_.top()) == distance_[v]) return v;
+            const float now = reached_[v].distance;
+            if (distance_of(far_.top()) == now) return v;
             far_.pop();
-            far_.push(entry_of(distance_[v], ~v));
+            if (now >= queued_from_) far_.push(entry_of(now, ~v));
         }
     }
 
-    float distance(std::uint32_t v) const { return distance_[v]; }
-    SeedSpread take() { return std::move(out_); }
+    float distance(std::uint32_t v) const { return reached_[v].distance; }
+
+    SeedSpread take() {
+        SeedSpread out;
+        out.vertices = std::move(seeds_);
+        out.seed_of.reserve(reached_.size());
+        out.parent.reserve(reached_.size());
+        for (const Reached& r : reached_) {
+            out.seed_of.push_back(r.seed);
+            out.parent.push_back(r.parent);
+        }
+        return out;
+    }
 
   private:
-    void reach(std::uint32_t v, float distance, std::uint32_t seed, std::uint32_t parent) {
-        distance_[v] = distance;
-        out_.seed_of[v] = seed;
-        out_.parent[v] = parent;
+    // Together, since a front asks for all three of one vertex after the other.
+    struct Reached {
+        float distance = kInfinity;  // to the nearest seed, over the local thickness
+        std::uint32_t seed = kNone;
+        std::uint32_t parent = kNone;
+    };
+    struct Link {
+        std::uint32_t vertex;
+        float length;
+    };
+
+    void grow(std::uint32_t v, const Reached& here) {
+        for (std::uint32_t l = first_[v]; l < first_[v + 1]; ++l) {
+            Reached& next = reached_[links_[l].vertex];
+            const float along = here.distance + links_[l].length;
+            // What hangs on a vertex goes with it, even where rounding makes the ways equal.
+            const bool hangs_on = next.parent == v && next.seed != here.seed;
+            if (along > next.distance || (along == next.distance && !hangs_on)) continue;
+            next = {along, here.seed, v};
+            push(bucket_of(along), links_[l].vertex);
+        }
     }
 
-    float length(std::uint32_t a, std::uint32_t b) const {
-        return 2.0f * glm::distance(surface_.positions[a], surface_.positions[b]) /
-               (thickness_[a] + thickness_[b]);
+    std::size_t bucket_of(float distance) const {
+        return static_cast<std::size_t>(std::min(distance / bucket_width_, kMostBuckets));
     }
 
-    const Surface& surface_;
-    std::span<const float> thickness_;
-    VertexGraph graph_;
-    std::vector<float> lengths_;  // of the edges, over the local thickness
-    std::vector<float> distance_;
-    std::priority_queue<Entry, std::vector<Entry>, std::greater<>> front_;
+    void push(std::size_t bucket, std::uint32_t vertex) {
+        if (bucket >= front_.size()) front_.resize(bucket + 1);
+        front_[bucket].push_back(vertex);
+        last_bucket_ = std::max(last_bucket_, bucket);
+    }
+
+    void queue_far_ones() {
+        float most = 0.0f;
+        for (const Reached& r : reached_) most = std::max(most, r.distance);
+        queued_from_ = kQueuedShare * most;
+        for (std::uint32_t v = 0; v < reached_.size(); ++v) {
+            if (reached_[v].distance >= queued_from_) far_.push(entry_of(reached_[v].distance, ~v));
+        }
+    }
+
+    static constexpr float kQueuedShare = 0.8f;
+    static constexpr float kMostBuckets = 1e6f;
+
+    std::vector<std::uint32_t> first_;  // of every vertex, in the links; and their end
+    std::vector<Link> links_;
+    std::vector<Reached> reached_;
+    std::vector<std::uint32_t> seeds_;
+    std::vector<std::vector<std::uint32_t>> front_;  // by distance
+    float bucket_width_ = 1.0f;
+    std::size_t last_bucket_ = 0;
     std::priority_queue<Entry> far_;  // ties: the lowest vertex
-    SeedSpread out_;
+    float queued_from_ = 0.0f;
 };
 
 }  // namespace
