@@ -173,7 +173,7 @@ def main():
     parser.add_argument("--rounds", type=int, default=0, help="of every program on every model (5; quick: 1)")
     parser.add_argument("--json", type=pathlib.Path, help="write every number")
     parser.add_argument("--plot", type=pathlib.Path, help="write seconds by faces as a PNG")
-    arguments = parser.parse_args()
+    arguments = parser.parse_intermixed_args()
     build = arguments.root / "build/release"
     names = ["horse", "octopus"] if arguments.quick else ["horse", "octopus", "hand", "double_torus", "horse_8k", "plant"]
     models = arguments.models or [arguments.root / "models" / f"{name}.obj" for name in names]
