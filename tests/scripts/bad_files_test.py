@@ -14,7 +14,7 @@ import sys
 import tempfile
 from concurrent.futures import ThreadPoolExecutor
 
-FAST = ["--backend", "ray", "--face-px", "4", "--with-seeds"]
+FAST = ["--backend", "cpu", "--face-px", "4", "--with-seeds"]
 FAST_OF_METHOD = {"paper": ["--step", "0.05", "--max-steps", "60"], "newton": []}
 MEMORY_BYTES = 4 << 30  # of address space: what a small file may make the program ask for
 SECONDS = 60
