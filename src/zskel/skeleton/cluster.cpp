@@ -35,6 +35,7 @@ class Merger {
     Merger(std::span<const Vec3> points, std::span<const glm::uvec2> links,
            std::span<const float> ranges) {
         clusters_.reserve(points.size() * 2);
+        merged_as_.assign(points.size() * 2, kNone);
         for (std::size_t i = 0; i < points.size(); ++i) {
             clusters_.push_back({DVec3(points[i]), static_cast<double>(ranges[i]), 1.0, {}, kNone});
         }
@@ -90,19 +91,19 @@ class Merger {
         merged.sum = clusters_[a].sum + clusters_[b].sum;
         merged.range_sum = clusters_[a].range_sum + clusters_[b].range_sum;
         merged.count = clusters_[a].count + clusters_[b].count;
+        merged_as_[a] = merged_as_[b] = name;
         for (const std::uint32_t part : {a, b}) {
             for (const std::uint32_t n : clusters_[part].neighbours) {
                 const std::uint32_t living = survivor(n);
-                if (living != a && living != b) merged.neighbours.push_back(living);
+                if (merged_as_[living] == name) continue;
+                merged_as_[living] = name;
+                merged.neighbours.push_back(living);
             }
         }
         for (const std::uint32_t part : {a, b}) {
             clusters_[part].merged_into = name;
             clusters_[part].neighbours = {};
         }
-        std::sort(merged.neighbours.begin(), merged.neighbours.end());
-        merged.neighbours.erase(std::unique(merged.neighbours.begin(), merged.neighbours.end()),
-                                merged.neighbours.end());
         clusters_.push_back(std::move(merged));
         for (const std::uint32_t n : clusters_[name].neighbours) {
             clusters_[n].neighbours.push_back(name);
@@ -111,6 +112,7 @@ class Merger {
     }
 
     std::vector<Cluster> clusters_;
+    std::vector<std::uint32_t> merged_as_;  // the last merger that listed a cluster
     Queue queue_;
 };
 
