@@ -102,8 +102,8 @@ TEST_CASE("extract_skeleton: progress is told, and can stop the work") {
         return true;
     };
     test::extract(test::sphere(0.5, 2), options);
-    CHECK(stages == std::vector<std::string>{"prepare", "backend", "seeds", "settle", "cluster",
-                                             "connect", "check"});
+    CHECK(stages == std::vector<std::string>{"prepare", "hierarchy", "backend", "seeds", "settle",
+                                             "cluster", "connect", "check"});
     options.progress = [](std::string_view stage, double) { return stage != "settle"; };
     CHECK_THROWS_AS(test::extract(test::sphere(0.5, 2), options), Cancelled);
 }

@@ -11,6 +11,7 @@
 #include "zskel/core/log.h"
 #include "zskel/mesh/solid.h"
 #include "zskel/skeleton/volumes.h"
+#include "zskel/visibility/surface_query.h"
 
 namespace zskel {
 namespace {
@@ -54,16 +55,17 @@ class Stages {
     std::chrono::steady_clock::time_point start_;
 };
 
-SolidSkeleton extract_solid(const Solid& solid, const ExtractOptions& options, Backend& backend,
-                            Stages& stages) {
+SolidSkeleton extract_solid(const Solid& solid, const SurfaceQuery& query,
+                            const ExtractOptions& options, Backend& backend, Stages& stages) {
     const MethodProgress progress{[&](std::string_view stage) { stages.begin(stage); },
                                   [&](double share) { stages.report(share); }};
     stages.begin("backend");
     const auto source = backend.prepare(solid.surface);
     SolidSkeleton skeleton =
         options.method == Method::Paper
-            ? extract_by_paper(solid.surface, *source, options.paper, progress)
-            : extract_by_newton(solid.surface, solid.is_closed, *source, options.newton, progress);
+            ? extract_by_paper(solid.surface, query, *source, options.paper, progress)
+            : extract_by_newton(solid.surface, query, solid.is_closed, *source, options.newton,
+                                progress);
     stages.begin("check");
     if (solid.is_closed)
         skeleton.volumes = node_volumes(solid.surface, skeleton.vertex_node, skeleton.nodes);
@@ -82,7 +84,8 @@ class Assembler {
         }
     }
 
-    void add(std::uint32_t number, const Solid& solid, SolidSkeleton& part) {
+    void add(std::uint32_t number, const Solid& solid, const SurfaceQuery& query,
+             SolidSkeleton& part) {
         const Similarity& to_world = solid.surface.world_from_model;
         const auto first = static_cast<std::uint32_t>(result_.graph.nodes.size());
         for (std::size_t n = 0; n < part.nodes.size(); ++n) {
@@ -109,7 +112,7 @@ class Assembler {
                                                to_world.to_model(handle.position), handle.is_cut,
                                                number});
         }
-        checker_.add(solid, part);
+        checker_.add(solid, query, part);
         ExtractStatistics& sums = result_.statistics;
         if (part.seed_spacing_thickness >= sums.seed_spacing_thickness) {
             sums.seed_spacing_thickness = part.seed_spacing_thickness;
@@ -238,8 +241,10 @@ ExtractResult extract_skeleton(const Mesh& mesh, const ExtractOptions& options, 
     result.statistics.solids = solids.size();
     Assembler assembler(mesh, prepared, result);
     for (std::uint32_t s = 0; s < solids.size(); ++s) {
-        SolidSkeleton part = extract_solid(solids[s], options, backend, stages);
-        assembler.add(s, solids[s], part);
+        stages.begin("hierarchy");
+        const SurfaceQuery query(solids[s].surface);
+        SolidSkeleton part = extract_solid(solids[s], query, options, backend, stages);
+        assembler.add(s, solids[s], query, part);
     }
     assembler.map_vertices(prepared);
     result.surface = std::move(prepared.surface);

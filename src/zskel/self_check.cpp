@@ -7,7 +7,6 @@
 #include <cstdint>
 
 #include "zskel/core/disjoint_sets.h"
-#include "zskel/visibility/surface_query.h"
 
 namespace zskel {
 namespace {
@@ -45,12 +44,12 @@ std::vector<bool> nodes_inside(const SurfaceQuery& query, const SolidSkeleton& s
 
 }  // namespace
 
-void SkeletonChecker::add(const Solid& solid, const SolidSkeleton& skeleton) {
+void SkeletonChecker::add(const Solid& solid, const SurfaceQuery& query,
+                          const SolidSkeleton& skeleton) {
     ++solids_;
     closed_ += solid.is_closed ? 1 : 0;
     knows_cycles_ = knows_cycles_ && skeleton.knows_cycles;
     expected_cycles_ += skeleton.expected_cycles;
-    const SurfaceQuery query(solid.surface);
     std::vector<bool> is_free;
     for (const glm::uvec2& edge : skeleton.edges)
         is_free.push_back(!query.first_hit(skeleton.nodes[edge.x], skeleton.nodes[edge.y]));

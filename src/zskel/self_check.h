@@ -9,6 +9,7 @@
 #include "zskel/mesh/solid.h"
 #include "zskel/skeleton/graph.h"
 #include "zskel/skeleton/method.h"
+#include "zskel/visibility/surface_query.h"
 
 namespace zskel {
 
@@ -32,7 +33,8 @@ struct SelfCheck {
 /// 64 places each.
 class SkeletonChecker {
   public:
-    void add(const Solid& solid, const SolidSkeleton& skeleton);
+    /// @param query  of the solid's surface.
+    void add(const Solid& solid, const SurfaceQuery& query, const SolidSkeleton& skeleton);
 
     /// @param graph  of all solids.
     SelfCheck finish(const SkeletonGraph& graph, const Similarity& world_from_model) const;

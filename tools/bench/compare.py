@@ -9,7 +9,7 @@ import sys
 import tempfile
 import time
 
-STAGES = ["prepare", "backend", "seeds", "settle", "handles", "connect", "refine", "check"]
+STAGES = ["prepare", "hierarchy", "backend", "seeds", "settle", "handles", "connect", "refine", "check"]
 
 
 def programs(build):

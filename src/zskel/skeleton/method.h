@@ -49,8 +49,9 @@ struct PaperMethodOptions {
     PaperStepOptions steps;
     ClusterOptions clusters;
 };
-SolidSkeleton extract_by_paper(const Surface& surface, VisibilitySource& source,
-                               const PaperMethodOptions& options, const MethodProgress& progress);
+SolidSkeleton extract_by_paper(const Surface& surface, const SurfaceQuery& query,
+                               VisibilitySource& source, const PaperMethodOptions& options,
+                               const MethodProgress& progress);
 
 /// Newton steps from spread seeds, a network with the solid's topology, refined.
 /// @param is_closed  whether handles are to be found; on an open surface the network is a forest.
@@ -66,7 +67,8 @@ struct NewtonMethodOptions {
     double min_handle_model = 0.0;  ///< handles of a smaller radius get no cycle; see SmallHandle
     RefineOptions refine;
 };
-SolidSkeleton extract_by_newton(const Surface& surface, bool is_closed, VisibilitySource& source,
-                                const NewtonMethodOptions& options, const MethodProgress& progress);
+SolidSkeleton extract_by_newton(const Surface& surface, const SurfaceQuery& query, bool is_closed,
+                                VisibilitySource& source, const NewtonMethodOptions& options,
+                                const MethodProgress& progress);
 
 }  // namespace zskel

@@ -93,12 +93,11 @@ void flatten(const CurveGraph& graph, const Surface& surface, const SeedSpread& 
 
 }  // namespace
 
-SolidSkeleton extract_by_newton(const Surface& surface, bool is_closed, VisibilitySource& source,
-                                const NewtonMethodOptions& options,
+SolidSkeleton extract_by_newton(const Surface& surface, const SurfaceQuery& query, bool is_closed,
+                                VisibilitySource& source, const NewtonMethodOptions& options,
                                 const MethodProgress& progress) {
     SolidSkeleton out;
     progress.begin("seeds");
-    const SurfaceQuery query(surface);
     const std::vector<float> thickness = vertex_thickness(surface, query);
     const std::vector<Vec3> starts = inner_points(surface, thickness, options.seeds);
     const std::vector<Vec3> inner = walkable_points(surface, query, starts);

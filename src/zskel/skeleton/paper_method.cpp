@@ -4,11 +4,11 @@
 
 namespace zskel {
 
-SolidSkeleton extract_by_paper(const Surface& surface, VisibilitySource& source,
-                               const PaperMethodOptions& options, const MethodProgress& progress) {
+SolidSkeleton extract_by_paper(const Surface& surface, const SurfaceQuery& query,
+                               VisibilitySource& source, const PaperMethodOptions& options,
+                               const MethodProgress& progress) {
     SolidSkeleton out;
     progress.begin("seeds");
-    const SurfaceQuery query(surface);
     out.seeds = place_seeds(surface, query, options.seeds);
     progress.begin("settle");
     out.settled = settle_seeds(source, out.seeds, options.steps, progress.report);
