@@ -8,14 +8,14 @@
 
 namespace zskel {
 
-EmbreeScene::EmbreeScene(const Surface& surface) : device_(rtcNewDevice(nullptr)) {
+EmbreeScene::EmbreeScene(const Surface& surface, Shape shape) : device_(rtcNewDevice(nullptr)) {
     if (device_ == nullptr) {
         throw Error(ExitCode::Backend, fmt::format("Embree gives no device (error {})",
                                                    static_cast<int>(rtcGetDeviceError(nullptr))));
     }
     scene_ = rtcNewScene(device_);
-    rtcSetSceneFlags(scene_, static_cast<RTCSceneFlags>(RTC_SCENE_FLAG_ROBUST |
-                                                        RTC_SCENE_FLAG_CONTEXT_FILTER_FUNCTION));
+    const auto shaped = shape == Shape::Compact ? RTC_SCENE_FLAG_COMPACT : RTC_SCENE_FLAG_NONE;
+    rtcSetSceneFlags(scene_, static_cast<RTCSceneFlags>(RTC_SCENE_FLAG_ROBUST | shaped));
     RTCGeometry geometry = rtcNewGeometry(device_, RTC_GEOMETRY_TYPE_TRIANGLE);
     // Embree reads 16 bytes at the last vertex, so positions go through a padded buffer of its own.
     void* vertices = rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3,

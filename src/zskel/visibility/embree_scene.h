@@ -13,7 +13,8 @@ namespace zskel {
 /// the ray source and `SurfaceQuery`; robust mode, so that no ray slips through a shared edge.
 class EmbreeScene {
   public:
-    explicit EmbreeScene(const Surface& surface);
+    enum class Shape { Fast, Compact };  ///< compact: 25 bytes a triangle less, as slow or slower
+    EmbreeScene(const Surface& surface, Shape shape);
     ~EmbreeScene();
     EmbreeScene(const EmbreeScene&) = delete;
     EmbreeScene& operator=(const EmbreeScene&) = delete;

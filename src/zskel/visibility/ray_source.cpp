@@ -14,7 +14,7 @@ namespace {
 class EmbreeSource : public VisibilitySource {
   public:
     EmbreeSource(const Surface& solid, Directions directions)
-        : VisibilitySource(solid, std::move(directions)), scene_(solid) {
+        : VisibilitySource(solid, std::move(directions)), scene_(solid, EmbreeScene::Shape::Fast) {
         for (const DVec3& d : this->directions().unit) floats_.emplace_back(d);
     }
 

@@ -70,7 +70,7 @@ bool visit_triangle(RTCPointQueryFunctionArguments* arguments) {
 }  // namespace
 
 struct SurfaceQuery::Impl {
-    explicit Impl(const Surface& s) : surface(s), scene(s) {}
+    explicit Impl(const Surface& s) : surface(s), scene(s, EmbreeScene::Shape::Compact) {}
     const Surface& surface;
     EmbreeScene scene;
 };
