@@ -1,6 +1,7 @@
 #pragma once
 
 #include <functional>
+#include <memory>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -55,6 +56,7 @@ SolidSkeleton extract_by_paper(const Surface& surface, const SurfaceQuery& query
 
 /// Newton steps from spread seeds, a network with the solid's topology, refined.
 /// @param is_closed  whether handles are to be found; on an open surface the network is a forest.
+/// @param source     let go of when all seeds are at rest.
 struct NewtonMethodOptions {
     SeedOptions seeds;
     SpreadOptions spread;
@@ -68,7 +70,7 @@ struct NewtonMethodOptions {
     RefineOptions refine;
 };
 SolidSkeleton extract_by_newton(const Surface& surface, const SurfaceQuery& query, bool is_closed,
-                                VisibilitySource& source, const NewtonMethodOptions& options,
-                                const MethodProgress& progress);
+                                std::unique_ptr<VisibilitySource> source,
+                                const NewtonMethodOptions& options, const MethodProgress& progress);
 
 }  // namespace zskel

@@ -94,7 +94,8 @@ void flatten(const CurveGraph& graph, const Surface& surface, const SeedSpread& 
 }  // namespace
 
 SolidSkeleton extract_by_newton(const Surface& surface, const SurfaceQuery& query, bool is_closed,
-                                VisibilitySource& source, const NewtonMethodOptions& options,
+                                std::unique_ptr<VisibilitySource> source,
+                                const NewtonMethodOptions& options,
                                 const MethodProgress& progress) {
     SolidSkeleton out;
     progress.begin("seeds");
@@ -106,7 +107,8 @@ SolidSkeleton extract_by_newton(const Surface& surface, const SurfaceQuery& quer
     out.seed_spacing_thickness = spread.spacing_thickness;
     out.seed_end = spread.end;
     progress.begin("settle");
-    out.settled = settle_seeds_newton(source, out.seeds, options.steps, progress.report);
+    out.settled = settle_seeds_newton(*source, out.seeds, options.steps, progress.report);
+    source.reset();  // on a large mesh what it holds is a fifth of all memory
     std::vector<Vec3> ends;
     for (const SettledSeed& seed : out.settled) ends.push_back(seed.position);
 
