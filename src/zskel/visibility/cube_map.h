@@ -12,6 +12,10 @@ namespace zskel {
 inline constexpr int kMinFacePx = 4;
 inline constexpr int kMaxFacePx = 1024;
 
+/// Near plane of the Z-buffers' cube maps, world units: surface nearer to an eye than this is not
+/// seen.
+inline constexpr float kNearPlane = 1e-6f;
+
 /// @throws UsageError unless kMinFacePx <= face_px <= kMaxFacePx.
 void check_face_px(int face_px);
 

@@ -3,12 +3,10 @@
 #include <memory>
 
 #include "zskel/gl/context.h"
+#include "zskel/visibility/cube_map.h"
 #include "zskel/visibility/visibility_source.h"
 
 namespace zskel {
-
-/// Near plane of the cube maps, world units: surface nearer to an eye than this is not seen.
-inline constexpr float kNearPlane = 1e-6f;
 
 /// What all raster sources of one context share: shaders, the depth target, and the tables of one
 /// map size.

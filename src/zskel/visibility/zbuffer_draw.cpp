@@ -4,6 +4,7 @@
 // 1/z = g.d with g = n / (n.p0): all are linear in u and v, and nothing has to be clipped. Two
 // triangles that share an edge compute exactly opposite values there, as long as no multiplication
 // is fused into the subtraction of a cross product (-ffp-contract=off), so nothing shows between.
+#include "zskel/visibility/cube_map.h"
 #include "zskel/visibility/zbuffer.h"
 
 #undef HWY_TARGET_INCLUDE
@@ -12,7 +13,7 @@
 #include <hwy/highway.h>
 
 #include <algorithm>
-#include <cstring>
+#include <bit>
 
 HWY_BEFORE_NAMESPACE();
 namespace zskel {
@@ -23,7 +24,6 @@ using Tag = hn::CappedTag<float, kBlock>;
 using IntTag = hn::RebindToSigned<Tag>;
 using F = hn::Vec<Tag>;
 
-constexpr float kNearPlane = 1e-6f;
 // Corners nearer than this to the plane through the eye count as behind it.
 constexpr float kLeastAxial = 1e-12f;
 // Boxes are widened by this share of a face: rounding in the edges, and a reciprocal of 11 bits,
@@ -172,10 +172,8 @@ void sort_near_to_far(const std::vector<ZBuffer::Candidate>& list,
         return;
     }
     const auto bucket_of = [](float inverse_near) {
-        std::uint32_t bits = 0;
-        std::memcpy(&bits, &inverse_near, sizeof bits);
         constexpr std::uint32_t kOne = 0x3F800000u >> 20;  // inverse_near is about 1 or more
-        const std::uint32_t octaves = bits >> 20;
+        const std::uint32_t octaves = std::bit_cast<std::uint32_t>(inverse_near) >> 20;
         return kBuckets - 1 - std::min(octaves - std::min(octaves, kOne), kBuckets - 1);
     };
     std::uint32_t start[kBuckets + 1] = {};
