@@ -9,6 +9,7 @@
 #include <functional>
 
 #include "support/models.h"
+#include "support/records.h"
 #include "support/shapes.h"
 #include "zskel/compare.h"
 #include "zskel/core/parallel.h"
@@ -43,29 +44,6 @@ MapBatch render(VisibilitySource& source, std::span<const Vec3> eyes) {
     return maps;
 }
 
-EyeRecord look(VisibilitySource& source, const Vec3& eye) {
-    EyeRecord record;
-    source.look(std::span(&eye, 1), std::span(&record, 1));
-    return record;
-}
-
-double relative(double a, double b, double scale) {
-    return std::abs(a - b) / scale;
-}
-
-// Every entry of two records of one eye, in units of the force's own scale.
-double difference(const EyeRecord& a, const EyeRecord& b) {
-    const double scale = 1.0 / std::min(a.nearest, b.nearest);
-    double worst = std::max<double>(relative(a.nearest, b.nearest, b.nearest),
-                                    relative(a.clearance, b.clearance, b.clearance));
-    worst = std::max<double>({worst, std::abs(a.back_fraction - b.back_fraction),
-                              std::abs(a.hit_fraction - b.hit_fraction)});
-    for (int k = 0; k < 3; ++k) worst = std::max(worst, relative(a.force[k], b.force[k], scale));
-    for (std::size_t k = 0; k < 6; ++k)
-        worst = std::max(worst, relative(a.jacobian[k], b.jacobian[k], scale * scale));
-    return worst;
-}
-
 Mesh nested() {
     return test::together(test::sphere(0.5, 2), test::moved(test::sphere(0.2, 2), {0.1, 0, 0}));
 }
@@ -97,7 +75,8 @@ TEST_CASE("cpu: a wall's distance is exact at every texel, whatever the size of 
                                 std::min(nearest, ((d[k] > 0 ? 0.5 : -0.5) - eyes[e][k]) / d[k]);
                         }
                     }
-                    worst = std::max(worst, relative(maps.view(e).distance[i], nearest, nearest));
+                    worst =
+                        std::max(worst, test::relative(maps.view(e).distance[i], nearest, nearest));
                 }
             }
             CHECK(worst < 1e-6);
@@ -153,10 +132,10 @@ TEST_CASE("cpu: a record is what `summarize` makes of the eye's map") {
                 const MapBatch maps = render(*source, std::span(&eye, 1));
                 const EyeRecord expected =
                     summarize(source->directions(), maps.view(0), prepared.surface);
-                CHECK(difference(look(*source, eye), expected) < 2e-6);
+                CHECK(test::difference(test::look(*source, eye), expected) < 2e-6);
             }
-            CHECK(look(*source, inside).back_fraction == doctest::Approx(1.0));
-            CHECK(look(*source, outside).back_fraction < 0.01);
+            CHECK(test::look(*source, inside).back_fraction == doctest::Approx(1.0));
+            CHECK(test::look(*source, outside).back_fraction < 0.01);
         }
     });
 }
@@ -172,7 +151,7 @@ TEST_CASE("cpu: instruction sets agree") {
         source->look(eyes, records);
         double worst = 0.0;
         for (std::size_t i = 0; i < eyes.size(); ++i)
-            worst = std::max(worst, difference(records[i], first[i]));
+            worst = std::max(worst, test::difference(records[i], first[i]));
         CHECK(worst < 1e-4);
     });
 }
@@ -189,11 +168,11 @@ TEST_CASE("cpu: misses of an open mesh are +inf and counted") {
                           [](float r) { return r == kInfinity; }));
         CHECK(std::all_of(maps.id.begin(), maps.id.begin() + 256,
                           [](std::uint32_t id) { return id == kNone; }));
-        const EyeRecord record = look(*source, eye);
+        const EyeRecord record = test::look(*source, eye);
         CHECK(record.hit_fraction == doctest::Approx(5.0 / 6.0).epsilon(1e-6));
         CHECK(record.force.x > 0.0f);  // nothing repels from the open side
         CHECK(record.clearance == kInfinity);
-        const EyeRecord far = look(*source, {5.0f, 0.0f, 0.0f});
+        const EyeRecord far = test::look(*source, {5.0f, 0.0f, 0.0f});
         CHECK(far.hit_fraction < 0.1f);
         CHECK(far.hit_fraction > 0.0f);
     });
@@ -205,7 +184,7 @@ TEST_CASE("cpu: an eye in the plane of a wall, in a corner, and nearer than the 
     for_each_instruction_set([&] {
         for (const Vec3& eye : {Vec3(0.5f, 0.0f, 0.0f), Vec3(0.5f), Vec3(0.5f, 0.5f, 3.0f),
                                 Vec3(0.5f - 1e-7f, 0.2f, 0.1f)}) {
-            const EyeRecord record = look(*source, eye);
+            const EyeRecord record = test::look(*source, eye);
             CHECK(std::isfinite(glm::length(record.force)));
             CHECK(std::all_of(record.jacobian.begin(), record.jacobian.end(),
                               [](float x) { return std::isfinite(x); }));
@@ -250,7 +229,7 @@ TEST_CASE("cpu: records do not depend on the number of threads, nor on the batch
     source->look(eyes, alone);
     set_thread_limit(0);
     for (std::size_t i = 0; i < eyes.size(); ++i) {
-        CHECK(difference(all[i], alone[i]) == 0.0);
-        CHECK(difference(all[i], look(*source, eyes[i])) == 0.0);
+        CHECK(test::difference(all[i], alone[i]) == 0.0);
+        CHECK(test::difference(all[i], test::look(*source, eyes[i])) == 0.0);
     }
 }

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "support/records.h"
 #include "support/shapes.h"
 #include "zskel/compare.h"
 #include "zskel/visibility/backend.h"
@@ -126,6 +127,50 @@ TEST_CASE("raster: equal depths show the lowest triangle") {
     source->render(std::span(&eye, 1), maps);
     const std::size_t ahead = texel_index(texel_of_direction({1, 0.01, 0.01}, 16), 16);
     CHECK(maps.id[ahead] == 12);
+}
+
+TEST_CASE("record shader: a record is the CPU's, whatever the size of the map") {
+    Mesh open = test::cube();
+    open.triangles.resize(open.triangles.size() - 2);
+    const Mesh nested =
+        test::together(test::sphere(0.5, 2), test::moved(test::sphere(0.2, 2), {0.1, 0, 0}));
+    for (const BackendKind kind : {BackendKind::Gl, BackendKind::Osmesa}) {
+        if (kind == BackendKind::Osmesa && !has_osmesa()) continue;
+        for (const int face_px : {4, 7, 8, 16}) {
+            const auto backend = backend_of(kind, face_px);
+            for (const Mesh& mesh : {test::torus(), open, nested, test::sphere(0.5, 5)}) {
+                const PreparedSurface prepared = prepare_surface(test::askew(mesh));
+                const auto source = backend->prepare(prepared.surface);
+                std::vector<Vec3> eyes;
+                for (int i = 0; i < 40; ++i) {  // some lie outside
+                    const double a = 0.37 * i;
+                    eyes.push_back(prepared.surface.world_from_model.to_world(
+                        {0.35 * std::cos(a), 0.35 * std::sin(a), 0.004 * i}));
+                }
+                std::vector<EyeRecord> records(eyes.size());
+                std::vector<EyeRecord> expected(eyes.size());
+                source->look(eyes, records);
+                backend_of(BackendKind::Cpu, face_px)
+                    ->prepare(prepared.surface)
+                    ->look(eyes, expected);
+                double worst = 0.0;
+                for (std::size_t e = 0; e < eyes.size(); ++e)
+                    worst = std::max(worst, test::difference(records[e], expected[e]));
+                CAPTURE(face_px);
+                CHECK(worst < 1e-4);
+            }
+        }
+    }
+}
+
+TEST_CASE("record shader: maps too large for shared memory are reduced here") {
+    const PreparedSurface prepared = prepare_surface(test::torus());
+    const auto backend = backend_of(BackendKind::Gl, 32);
+    const auto source = backend->prepare(prepared.surface);
+    const Vec3 eye = prepared.surface.world_from_model.to_world({0.33, 0.03, 0.02});
+    EyeRecord expected;
+    source->VisibilitySource::look(std::span(&eye, 1), std::span(&expected, 1));
+    CHECK(test::difference(test::look(*source, eye), expected) == 0.0);
 }
 
 TEST_CASE("raster against rays: within bounds on smooth, sharp, thin and nested solids") {

@@ -51,6 +51,19 @@ Difference difference_of(std::vector<double>& values) {
     return {quantile(values, 0.5), quantile(values, 0.999), quantile(values, 1.0), values.size()};
 }
 
+// |A - B| / |B| of two symmetric matrices, xx yy zz xy xz yz, by Frobenius' norm.
+double jacobian_error(const std::array<float, 6>& a, const std::array<float, 6>& b) {
+    double difference = 0.0;
+    double size = 0.0;
+    for (std::size_t k = 0; k < 6; ++k) {
+        const double times = k < 3 ? 1.0 : 2.0;
+        const auto reference = static_cast<double>(b[k]);
+        difference += times * std::pow(static_cast<double>(a[k]) - reference, 2);
+        size += times * reference * reference;
+    }
+    return size > 0.0 ? std::sqrt(difference / size) : 0.0;
+}
+
 // Gathers differences over any number of eyes and solids, then sums them up.
 class Tally {
   public:
@@ -60,13 +73,16 @@ class Tally {
             throw UsageError("only cube maps of one size can be compared texel by texel");
         }
         const auto neighbours = texel_neighbours(face_px);
+        std::vector<EyeRecord> records(eyes.size());
+        tested.look(eyes, records);
         MapBatch a;
         MapBatch b;
-        for (const Vec3& eye : eyes) {
-            tested.render(std::span(&eye, 1), a);
-            reference.render(std::span(&eye, 1), b);
-            add_texels(reference, eye, a.view(0), b.view(0), neighbours);
-            add_force(reference.directions(), a.view(0), b.view(0));
+        for (std::size_t e = 0; e < eyes.size(); ++e) {
+            tested.render(eyes.subspan(e, 1), a);
+            reference.render(eyes.subspan(e, 1), b);
+            add_texels(reference, eyes[e], a.view(0), b.view(0), neighbours);
+            const bool same_ids = std::equal(a.id.begin(), a.id.end(), b.id.begin());
+            add_record(reference, records[e], b.view(0), same_ids);
         }
         out_.eyes += eyes.size();
         out_.texels += eyes.size() * reference.directions().size();
@@ -87,6 +103,10 @@ class Tally {
         out_.force_error_median = quantile(force_errors_, 0.5);
         out_.force_error_p95 = quantile(force_errors_, 0.95);
         out_.force_error_worst = quantile(force_errors_, 1.0);
+        out_.jacobian_error_median = quantile(jacobian_errors_, 0.5);
+        out_.jacobian_error_p95 = quantile(jacobian_errors_, 0.95);
+        out_.jacobian_error_worst = quantile(jacobian_errors_, 1.0);
+        out_.jacobians = jacobian_errors_.size();
         out_.angles = angles_.size();
         out_.angle_median_deg = quantile(angles_, 0.5);
         out_.angle_worst_deg = quantile(angles_, 1.0);
@@ -121,15 +141,19 @@ class Tally {
         }
     }
 
-    void add_force(const Directions& directions, const MapView& a, const MapView& b) {
-        const Force fa = force_at(directions, a);
-        const Force fb = force_at(directions, b);
-        if (!(fb.mean_inverse_distance > 0.0)) return;
-        force_errors_.push_back(glm::length(fa.vector - fb.vector) / fb.mean_inverse_distance);
-        const double floor = kForceMeansSomething * fb.mean_inverse_distance;
-        if (glm::length(fa.vector) < floor || glm::length(fb.vector) < floor) return;
-        const double angle = std::atan2(glm::length(glm::cross(fa.vector, fb.vector)),
-                                        glm::dot(fa.vector, fb.vector));
+    void add_record(const VisibilitySource& reference, const EyeRecord& a, const MapView& map,
+                    bool same_ids) {
+        const double mean = force_at(reference.directions(), map).mean_inverse_distance;
+        if (!(mean > 0.0)) return;
+        const EyeRecord b = summarize(reference.directions(), map, reference.solid());
+        const DVec3 force_a(a.force);
+        const DVec3 force_b(b.force);
+        force_errors_.push_back(glm::distance(force_a, force_b) / mean);
+        if (same_ids) jacobian_errors_.push_back(jacobian_error(a.jacobian, b.jacobian));
+        const double floor = kForceMeansSomething * mean;
+        if (glm::length(force_a) < floor || glm::length(force_b) < floor) return;
+        const double angle =
+            std::atan2(glm::length(glm::cross(force_a, force_b)), glm::dot(force_a, force_b));
         angles_.push_back(angle * 180.0 / std::numbers::pi);
     }
 
@@ -137,6 +161,7 @@ class Tally {
     std::vector<double> inner_;
     std::vector<double> silhouette_;
     std::vector<double> force_errors_;
+    std::vector<double> jacobian_errors_;
     std::vector<double> angles_;
     std::size_t same_ = 0;
     std::size_t inner_same_ = 0;
@@ -148,7 +173,8 @@ class Tally {
 bool is_within(const SourceComparison& comparison, const ComparisonBounds& bounds) {
     return comparison.all.median <= bounds.texel_median &&
            comparison.inner.p999 <= bounds.inner_p999 &&
-           comparison.force_error_p95 <= bounds.force_p95;
+           comparison.force_error_p95 <= bounds.force_p95 &&
+           comparison.jacobian_error_p95 <= bounds.jacobian_p95;
 }
 
 std::vector<Vec3> comparison_eyes(const Surface& solid, VisibilitySource& source, int count,

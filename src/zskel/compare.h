@@ -37,9 +37,15 @@ struct SourceComparison {
     std::size_t one_sided = 0;  ///< texels where only one of the two hits anything
     double id_agreement_inner = 1.0;
     double id_agreement_all = 1.0;
-    double force_error_median = 0.0;  ///< |Fa - Fb| over the mean of 1/r
+    double force_error_median = 0.0;  ///< of records: |Fa - Fb| over the mean of 1/r
     double force_error_p95 = 0.0;
     double force_error_worst = 0.0;
+    /// Of records, at eyes that see the same triangles by both (one on a border faces either way):
+    /// |Ja - Jb| / |Jb|, by Frobenius' norm.
+    double jacobian_error_median = 0.0;
+    double jacobian_error_p95 = 0.0;
+    double jacobian_error_worst = 0.0;
+    std::size_t jacobians = 0;
     double angle_median_deg =
         0.0;  ///< between the forces, only where both exceed 5 % of the mean of 1/r
     double angle_worst_deg = 0.0;
@@ -51,6 +57,7 @@ struct ComparisonBounds {
     double texel_median = 1e-5;
     double inner_p999 = 1e-3;
     double force_p95 = 1e-3;
+    double jacobian_p95 = 1e-3;
 };
 bool is_within(const SourceComparison& comparison, const ComparisonBounds& bounds);
 
@@ -60,7 +67,9 @@ bool is_within(const SourceComparison& comparison, const ComparisonBounds& bound
 std::vector<Vec3> comparison_eyes(const Surface& solid, VisibilitySource& source, int count,
                                   const ExtractOptions& options);
 
-/// Compares cube maps of two sources of one solid. Both must sample the same directions.
+/// Compares cube maps of two sources of one solid, and the records that `tested` gives for steps to
+/// go by with those of the reference's maps. Both must
+/// sample the same directions.
 /// @throws UsageError when they do not.
 SourceComparison compare_sources(VisibilitySource& tested, VisibilitySource& reference,
                                  std::span<const Vec3> eyes);

@@ -6,6 +6,8 @@
 #include <numbers>
 #include <utility>
 
+#include <glm/gtc/quaternion.hpp>
+
 #include "zskel/mesh/mesh.h"
 #include "zskel/mesh/surface.h"
 
@@ -145,6 +147,13 @@ inline Mesh moved(Mesh mesh, const DVec3& offset, double scale = 1.0) {
 }
 
 /// Both in one mesh, `b`'s vertices after `a`'s.
+// Turned by an odd angle about an odd axis, so that no direction of a cube map runs along an edge.
+inline Mesh askew(Mesh mesh) {
+    const glm::dquat turn = glm::angleAxis(0.6543, glm::normalize(DVec3(0.3, -0.8, 0.51)));
+    for (DVec3& p : mesh.positions) p = turn * p;
+    return mesh;
+}
+
 inline Mesh together(Mesh a, const Mesh& b) {
     const auto first = static_cast<std::uint32_t>(a.positions.size());
     a.positions.insert(a.positions.end(), b.positions.begin(), b.positions.end());

@@ -47,12 +47,18 @@ Json to_json(const SourceComparison& c, const ComparisonBounds& bounds) {
              {{"median", c.force_error_median},
               {"p95", c.force_error_p95},
               {"worst", c.force_error_worst}}},
+            {"jacobian_error",
+             {{"median", c.jacobian_error_median},
+              {"p95", c.jacobian_error_p95},
+              {"worst", c.jacobian_error_worst},
+              {"eyes", c.jacobians}}},
             {"force_angle_deg",
              {{"median", c.angle_median_deg}, {"worst", c.angle_worst_deg}, {"eyes", c.angles}}},
             {"bounds",
              {{"texel_median", bounds.texel_median},
               {"inner_p999", bounds.inner_p999},
-              {"force_p95", bounds.force_p95}}},
+              {"force_p95", bounds.force_p95},
+              {"jacobian_p95", bounds.jacobian_p95}}},
             {"within_bounds", is_within(c, bounds)}};
 }
 
@@ -76,12 +82,17 @@ std::string to_text(const SourceComparison& c, const ComparisonBounds& bounds) {
     text += fmt::format("force, over the mean of 1/r: median {:.2e}   95 % {:.2e}   worst {:.2e}\n",
                         c.force_error_median, c.force_error_p95, c.force_error_worst);
     text += fmt::format(
+        "Jacobian, at the {} eyes that see the same triangles: median {:.2e}   95 % {:.2e}   worst "
+        "{:.2e}\n",
+        c.jacobians, c.jacobian_error_median, c.jacobian_error_p95, c.jacobian_error_worst);
+    text += fmt::format(
         "angle, at the {} eyes where it means something: median {:.4f}   worst {:.4f} degrees\n",
         c.angles, c.angle_median_deg, c.angle_worst_deg);
     text += fmt::format(
-        "{} (bounds: texel median {:.0e}, 99.9 % of inner texels {:.0e}, 95 % of forces {:.0e})\n",
+        "{} (bounds: texel median {:.0e}, 99.9 % of inner texels {:.0e}, 95 % of forces {:.0e}, "
+        "of Jacobians {:.0e})\n",
         is_within(c, bounds) ? "within bounds" : "NOT within bounds", bounds.texel_median,
-        bounds.inner_p999, bounds.force_p95);
+        bounds.inner_p999, bounds.force_p95, bounds.jacobian_p95);
     return text;
 }
 

@@ -37,6 +37,7 @@ namespace zskel::gl {
     X(PFNGLDEPTHFUNCPROC, DepthFunc)                                     \
     X(PFNGLDEPTHMASKPROC, DepthMask)                                     \
     X(PFNGLDISABLEPROC, Disable)                                         \
+    X(PFNGLDISPATCHCOMPUTEPROC, DispatchCompute)                         \
     X(PFNGLDRAWARRAYSPROC, DrawArrays)                                   \
     X(PFNGLDRAWARRAYSINSTANCEDPROC, DrawArraysInstanced)                 \
     X(PFNGLDRAWELEMENTSPROC, DrawElements)                               \
@@ -46,6 +47,7 @@ namespace zskel::gl {
     X(PFNGLFINISHPROC, Finish)                                           \
     X(PFNGLGETERRORPROC, GetError)                                       \
     X(PFNGLGETINTEGERVPROC, GetIntegerv)                                 \
+    X(PFNGLGETNAMEDBUFFERSUBDATAPROC, GetNamedBufferSubData)             \
     X(PFNGLGETPROGRAMINFOLOGPROC, GetProgramInfoLog)                     \
     X(PFNGLGETPROGRAMIVPROC, GetProgramiv)                               \
     X(PFNGLGETSHADERINFOLOGPROC, GetShaderInfoLog)                       \
@@ -55,6 +57,7 @@ namespace zskel::gl {
     X(PFNGLGETTEXTURESUBIMAGEPROC, GetTextureSubImage)                   \
     X(PFNGLGETUNIFORMLOCATIONPROC, GetUniformLocation)                   \
     X(PFNGLLINKPROGRAMPROC, LinkProgram)                                 \
+    X(PFNGLMEMORYBARRIERPROC, MemoryBarrier)                             \
     X(PFNGLNAMEDBUFFERSTORAGEPROC, NamedBufferStorage)                   \
     X(PFNGLNAMEDBUFFERSUBDATAPROC, NamedBufferSubData)                   \
     X(PFNGLNAMEDFRAMEBUFFERDRAWBUFFERPROC, NamedFramebufferDrawBuffer)   \
@@ -65,6 +68,8 @@ namespace zskel::gl {
     X(PFNGLTEXTURESTORAGE2DMULTISAMPLEPROC, TextureStorage2DMultisample) \
     X(PFNGLTEXTURESTORAGE3DPROC, TextureStorage3D)                       \
     X(PFNGLUNIFORM1FPROC, Uniform1f)                                     \
+    X(PFNGLUNIFORM1IPROC, Uniform1i)                                     \
+    X(PFNGLUNIFORM1UIPROC, Uniform1ui)                                   \
     X(PFNGLUNIFORM2FPROC, Uniform2f)                                     \
     X(PFNGLUNIFORM3FPROC, Uniform3f)                                     \
     X(PFNGLUNIFORM4FPROC, Uniform4f)                                     \

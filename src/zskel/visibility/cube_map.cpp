@@ -42,6 +42,14 @@ const std::array<CubeFace, 6>& cube_faces() {
     return faces;
 }
 
+std::array<glm::mat3, 6> faces_from_world() {
+    std::array<glm::mat3, 6> out{};
+    std::transform(cube_faces().begin(), cube_faces().end(), out.begin(), [](const CubeFace& face) {
+        return glm::transpose(glm::mat3(face.right, face.up, face.forward));
+    });
+    return out;
+}
+
 Texel texel_at(std::size_t index, int face_px) {
     const auto n = static_cast<std::size_t>(face_px);
     return {static_cast<int>(index / (n * n)), static_cast<int>(index % n),
@@ -68,6 +76,10 @@ double texel_solid_angle(const Texel& texel, int face_px) {
     const double v1 = border(texel.row + 1, face_px);
     return corner_angle(u1, v1) - corner_angle(u0, v1) - corner_angle(u1, v0) +
            corner_angle(u0, v0);
+}
+
+double texel_share(const Texel& texel, int face_px) {
+    return texel_solid_angle(texel, face_px) / (4.0 * std::numbers::pi);
 }
 
 Texel texel_of_direction(const DVec3& direction, int face_px) {
@@ -102,7 +114,7 @@ Directions cube_directions(int face_px) {
     for (std::size_t i = 0; i < count; ++i) {
         const Texel texel = texel_at(i, face_px);
         out.unit.push_back(glm::normalize(texel_direction(texel, face_px)));
-        out.weight.push_back(texel_solid_angle(texel, face_px) / (4.0 * std::numbers::pi));
+        out.weight.push_back(texel_share(texel, face_px));
     }
     return out;
 }

@@ -28,6 +28,9 @@ struct CubeFace {
 };
 const std::array<CubeFace, 6>& cube_faces();
 
+/// World space to each face's own (right, up, forward), as shaders take it.
+std::array<glm::mat3, 6> faces_from_world();
+
 /// Where a texel stands in a map: faces one after the other, rows upward, columns to the right.
 struct Texel {
     int face;
@@ -43,6 +46,9 @@ DVec3 texel_direction(const Texel& texel, int face_px);
 
 /// Exact solid angle of a texel in steradians (arctangent form); a map's texels sum to 4 pi.
 double texel_solid_angle(const Texel& texel, int face_px);
+
+/// The same as a share of the sphere: the weight of a sample.
+double texel_share(const Texel& texel, int face_px);
 
 /// The texel that a direction goes through; on an edge, the lower face, column and row.
 Texel texel_of_direction(const DVec3& direction, int face_px);

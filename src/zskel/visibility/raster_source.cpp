@@ -4,7 +4,6 @@
 #include "zskel/visibility/raster_source.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <numeric>
 #include <optional>
@@ -12,12 +11,16 @@
 #include <utility>
 
 #include "glsl_sources.h"
+#include "zskel/core/error.h"
+#include "zskel/core/log.h"
 #include "zskel/core/parallel.h"
 #include "zskel/gl/api.h"
 #include "zskel/gl/depth_target.h"
 #include "zskel/gl/program.h"
+#include "zskel/gl/stream_buffer.h"
 #include "zskel/visibility/cube_map.h"
 #include "zskel/visibility/face_lists.h"
+#include "zskel/visibility/record_shader.h"
 
 namespace zskel {
 
@@ -61,22 +64,6 @@ struct DrawList {
     }
 };
 
-// A GL buffer that grows to the largest content it has held.
-struct StreamBuffer {
-    GLuint name = 0;
-    GLsizeiptr capacity = 0;
-
-    void fill(const gl::Api& gl, const void* data, std::size_t bytes) {
-        const auto wanted = static_cast<GLsizeiptr>(bytes);
-        if (wanted > capacity) {
-            gl.DeleteBuffers(1, &name);
-            capacity = wanted + wanted / 2;
-            name = gl::make_buffer(gl, nullptr, capacity, GL_DYNAMIC_STORAGE_BIT);
-        }
-        if (wanted > 0) gl.NamedBufferSubData(name, 0, wanted, data);
-    }
-};
-
 class RasterPipeline {
   public:
     RasterPipeline(int face_px, gl::Context& context)
@@ -93,7 +80,7 @@ class RasterPipeline {
     ~RasterPipeline() {
         context_.release("releasing the raster pipeline", [&](const gl::Api& gl) {
             if (target_) target_->destroy(gl);
-            for (const StreamBuffer* buffer : {&eyes_, &indices_, &commands_})
+            for (const gl::StreamBuffer* buffer : {&eyes_, &indices_, &commands_})
                 gl.DeleteBuffers(1, &buffer->name);
             gl.DeleteBuffers(1, &layers_);
             gl.DeleteProgram(program_);
@@ -105,6 +92,13 @@ class RasterPipeline {
     gl::Context& context() { return context_; }
     const Directions& directions() const { return directions_; }
     GLuint layer_numbers() const { return layers_; }
+
+    // Null where maps are too large for it, or the driver cannot compile it. Compiled when first
+    // asked for.
+    RecordShader* record_shader() {
+        if (!record_shader_ && !has_no_shader_) open_record_shader();
+        return record_shader_ ? &*record_shader_ : nullptr;
+    }
 
     // Eyes a pass: what the layers allow, no more than 64 MB of texels, and some 100 MB of indices.
     std::size_t max_batch(std::size_t triangles) const {
@@ -131,6 +125,20 @@ class RasterPipeline {
     }
 
   private:
+    void open_record_shader() {
+        has_no_shader_ = true;
+        if (face_px_ > RecordShader::kMostFacePx) {
+            log_info("cube faces of {} texels: records come from whole maps", face_px_);
+            return;
+        }
+        try {
+            record_shader_.emplace(face_px_, context_);
+            has_no_shader_ = false;
+        } catch (const GlError& error) {
+            log_warning("{}: records come from whole maps", error.what());
+        }
+    }
+
     void prepare(const gl::Api& gl) {
         program_ = gl::build_program(gl, {{GL_VERTEX_SHADER, "depth.vert", glsl::kDepthVert},
                                           {GL_FRAGMENT_SHADER, "depth.frag", glsl::kDepthFrag}});
@@ -140,13 +148,9 @@ class RasterPipeline {
                                   static_cast<GLsizeiptr>(numbers.size() * sizeof(GLuint)));
         gl.UseProgram(program_);
         gl.Uniform1f(gl::uniform(gl, program_, "near_plane"), kNearPlane);
-        std::array<glm::mat3, kFaces> face_from_world{};
-        for (std::size_t f = 0; f < kFaces; ++f) {
-            const CubeFace& face = cube_faces()[f];
-            face_from_world[f] = glm::transpose(glm::mat3(face.right, face.up, face.forward));
-        }
+        const auto faces = faces_from_world();
         gl.UniformMatrix3fv(gl::uniform(gl, program_, "face_from_world"), kFaces, GL_FALSE,
-                            &face_from_world[0][0][0]);
+                            &faces[0][0][0]);
     }
 
     void draw(const gl::Api& gl, GLuint vertex_array, std::span<const Vec3> eyes,
@@ -211,11 +215,13 @@ class RasterPipeline {
     DrawList list_;
     std::vector<glm::vec4> padded_eyes_;
     std::optional<gl::DepthTarget> target_;
+    std::optional<RecordShader> record_shader_;
+    bool has_no_shader_ = false;
     GLuint program_ = 0;
     GLuint layers_ = 0;
-    StreamBuffer eyes_;
-    StreamBuffer indices_;
-    StreamBuffer commands_;
+    gl::StreamBuffer eyes_;
+    gl::StreamBuffer indices_;
+    gl::StreamBuffer commands_;
 };
 
 namespace {
@@ -229,10 +235,28 @@ class RasterSource : public VisibilitySource {
     }
 
     ~RasterSource() override {
+        if (shaded_) pipeline_.record_shader()->release(*shaded_);
         pipeline_.context().release("releasing the raster source", [&](const gl::Api& gl) {
             gl.DeleteVertexArrays(1, &vertex_array_);
             gl.DeleteBuffers(1, &vertices_);
         });
+    }
+
+    // By the record shader; what it cannot do is drawn, read back and reduced here.
+    void look(std::span<const Vec3> eyes, std::span<EyeRecord> records) override {
+        RecordShader* shader = pipeline_.record_shader();
+        if (shader != nullptr && !shaded_ && !too_large_) {
+            shaded_ = shader->upload(solid());
+            too_large_ = !shaded_;
+            if (too_large_)
+                log_warning(
+                    "{} triangles are too many for the driver's compute shaders: "
+                    "records come from whole maps",
+                    solid().triangles.size());
+        }
+        if (!shaded_) return VisibilitySource::look(eyes, records);
+        shader->look(*shaded_, eyes, records);
+        look_again(eyes, records);
     }
 
     void render(std::span<const Vec3> eyes, MapBatch& maps) override {
@@ -248,6 +272,27 @@ class RasterSource : public VisibilitySource {
     }
 
   private:
+    // The eyes whose records the driver cut short.
+    void look_again(std::span<const Vec3> eyes, std::span<EyeRecord> records) {
+        std::vector<std::size_t> cut;
+        std::vector<Vec3> again;
+        for (std::size_t e = 0; e < eyes.size(); ++e) {
+            if (records[e].hit_fraction >= 0.0f) continue;
+            cut.push_back(e);
+            again.push_back(eyes[e]);
+        }
+        if (cut.empty()) return;
+        if (!std::exchange(has_warned_, true)) {
+            log_warning(
+                "the driver cuts long compute shaders short ({} of {} eyes): "
+                "their records come from whole maps",
+                cut.size(), eyes.size());
+        }
+        std::vector<EyeRecord> mended(cut.size());
+        VisibilitySource::look(again, mended);
+        for (std::size_t i = 0; i < cut.size(); ++i) records[cut[i]] = mended[i];
+    }
+
     void upload(const gl::Api& gl) {
         vertices_ =
             gl::make_buffer(gl, solid().positions.data(),
@@ -265,6 +310,9 @@ class RasterSource : public VisibilitySource {
     }
 
     RasterPipeline& pipeline_;
+    std::optional<RecordShader::Solid> shaded_;
+    bool too_large_ = false;
+    bool has_warned_ = false;
     GLuint vertex_array_ = 0;
     GLuint vertices_ = 0;
 };

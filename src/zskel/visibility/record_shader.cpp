@@ -1,0 +1,111 @@
+#include "zskel/visibility/record_shader.h"
+
+#include <algorithm>
+
+#include "glsl_sources.h"
+#include "zskel/core/assert.h"
+#include "zskel/gl/program.h"
+#include "zskel/visibility/cube_map.h"
+#include "zskel/visibility/triangle_clusters.h"
+
+namespace zskel {
+namespace {
+
+constexpr std::size_t kMostGroups = 65535;  // of threads, in one dispatch: what every driver takes
+constexpr GLuint kPatience = 64;
+
+template <typename T>
+GLsizeiptr bytes_of(const T& items) {
+    return static_cast<GLsizeiptr>(items.size() * sizeof(*items.data()));
+}
+
+}  // namespace
+
+RecordShader::RecordShader(int face_px, gl::Context& context) : context_(context) {
+    ZSKEL_ASSERT(face_px <= kMostFacePx, "the map fits");
+    std::vector<float> weights;
+    for (int row = 0; row < face_px; ++row) {
+        for (int column = 0; column < face_px; ++column)
+            weights.push_back(static_cast<float>(texel_share({0, column, row}, face_px)));
+    }
+    context_.run("preparing the record shader", [&](const gl::Api& gl) {
+        program_ = gl::build_program(gl, {{GL_COMPUTE_SHADER, "records.comp", glsl::kRecordsComp}});
+        gl.UseProgram(program_);
+        gl.Uniform1i(gl::uniform(gl, program_, "face_px"), face_px);
+        gl.Uniform1ui(gl::uniform(gl, program_, "patience"), kPatience);
+        gl.Uniform1f(gl::uniform(gl, program_, "near_plane"), kNearPlane);
+        gl.Uniform1f(gl::uniform(gl, program_, "ahead_cosine"), kAheadCosine);
+        gl.Uniform1f(gl::uniform(gl, program_, "grazing_cosine"), kGrazingCosine);
+        const auto faces = faces_from_world();
+        gl.UniformMatrix3fv(gl::uniform(gl, program_, "face_from_world"),
+                            static_cast<GLsizei>(faces.size()), GL_FALSE, &faces[0][0][0]);
+        groups_ = gl::uniform(gl, program_, "groups");
+        weights_ = gl::make_buffer(gl, weights.data(), bytes_of(weights));
+        GLint most = 0;
+        gl.GetIntegerv(GL_MAX_SHADER_STORAGE_BLOCK_SIZE, &most);
+        most_bytes_ = most;
+    });
+}
+
+RecordShader::~RecordShader() {
+    context_.release("releasing the record shader", [&](const gl::Api& gl) {
+        for (const GLuint buffer : {weights_, eyes_.name, records_.name})
+            gl.DeleteBuffers(1, &buffer);
+        gl.DeleteProgram(program_);
+    });
+}
+
+std::optional<RecordShader::Solid> RecordShader::upload(const Surface& surface) {
+    const TriangleClusters clusters = cluster_triangles(surface);
+    if (bytes_of(clusters.triangles) > most_bytes_) return std::nullopt;
+    Solid solid;
+    context_.run("preparing a solid for the record shader", [&](const gl::Api& gl) {
+        const auto buffer = [&](const auto& items) {
+            return gl::make_buffer(gl, items.data(), bytes_of(items));
+        };
+        solid.triangles = buffer(clusters.triangles);
+        solid.block_boxes = buffer(clusters.block_boxes);
+        solid.group_boxes = buffer(clusters.group_boxes);
+        solid.first_blocks = buffer(clusters.first_block);
+        solid.normals = buffer(surface.triangle_normals);
+    });
+    solid.groups = static_cast<GLuint>(clusters.first_block.size() - 1);
+    return solid;
+}
+
+void RecordShader::release(const Solid& solid) noexcept {
+    context_.release("releasing a solid of the record shader", [&](const gl::Api& gl) {
+        for (const GLuint buffer : {solid.triangles, solid.block_boxes, solid.group_boxes,
+                                    solid.first_blocks, solid.normals})
+            gl.DeleteBuffers(1, &buffer);
+    });
+}
+
+void RecordShader::look(const Solid& solid, std::span<const Vec3> eyes,
+                        std::span<EyeRecord> records) {
+    ZSKEL_ASSERT(eyes.size() == records.size(), "one record an eye");
+    context_.run("reducing cube maps", [&](const gl::Api& gl) {
+        gl.UseProgram(program_);
+        gl.Uniform1ui(groups_, solid.groups);
+        for (std::size_t first = 0; first < eyes.size(); first += kMostGroups) {
+            const std::size_t count = std::min(kMostGroups, eyes.size() - first);
+            padded_eyes_.clear();
+            for (const Vec3& eye : eyes.subspan(first, count)) padded_eyes_.emplace_back(eye, 0.0f);
+            eyes_.fill(gl, padded_eyes_.data(), count * sizeof(glm::vec4));
+            records_.reserve(gl, count * sizeof(EyeRecord));
+            const GLuint buffers[] = {eyes_.name,        solid.triangles,    solid.block_boxes,
+                                      solid.group_boxes, solid.first_blocks, solid.normals,
+                                      weights_,          records_.name};
+            GLuint binding = 0;
+            for (const GLuint buffer : buffers)
+                gl.BindBufferBase(GL_SHADER_STORAGE_BUFFER, binding++, buffer);
+            gl.DispatchCompute(static_cast<GLuint>(count), 1, 1);
+            gl.MemoryBarrier(GL_BUFFER_UPDATE_BARRIER_BIT);
+            gl.GetNamedBufferSubData(records_.name, 0,
+                                     static_cast<GLsizeiptr>(count * sizeof(EyeRecord)),
+                                     records.data() + first);
+        }
+    });
+}
+
+}  // namespace zskel
