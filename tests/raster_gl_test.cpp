@@ -163,6 +163,20 @@ TEST_CASE("record shader: a record is the CPU's, whatever the size of the map") 
     }
 }
 
+TEST_CASE("record shader: right where a software driver ends its loops too soon") {
+    const PreparedSurface prepared = prepare_surface(test::askew(test::sphere(0.5, 7)));
+    const auto gl_backend = backend_of(BackendKind::Gl);
+    const auto cpu_backend = backend_of(BackendKind::Cpu);
+    const auto source = gl_backend->prepare(prepared.surface);
+    const auto cpu = cpu_backend->prepare(prepared.surface);
+    for (const DVec3& p : {DVec3(0.2, 0.0, 0.1), DVec3(0.1, 0.2, 0.3)}) {
+        const Vec3 eye = prepared.surface.world_from_model.to_world(p);
+        const EyeRecord record = test::look(*source, eye);
+        CHECK(record.hit_fraction == doctest::Approx(1.0));
+        CHECK(test::difference(record, test::look(*cpu, eye)) < 2e-3);
+    }
+}
+
 TEST_CASE("record shader: maps too large for shared memory are reduced here") {
     const PreparedSurface prepared = prepare_surface(test::torus());
     const auto backend = backend_of(BackendKind::Gl, 32);

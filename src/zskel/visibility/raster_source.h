@@ -20,9 +20,12 @@ using RasterPipelinePtr = std::unique_ptr<RasterPipeline, RasterPipelineDeleter>
 /// @throws GlError, UsageError (face_px).
 RasterPipelinePtr make_raster_pipeline(int face_px, gl::Context& context);
 
-/// Visibility by the Z-buffer: the solid is rendered into a layered reversed-Z 32F depth target
-/// with the triangle's number beside it, and read back. Nothing is culled, so that the share of
-/// back faces tells when an eye has left the solid. `solid` and `pipeline` must outlive the source.
+/// Visibility by GL's Z-buffer. Whole maps: the solid is rendered into a layered reversed-Z 32F
+/// depth target with the triangle's number beside it, and read back. Records: by RecordShader,
+/// where no map leaves the GPU; those of maps that are too large for it, and what a driver cannot
+/// do, come from whole maps, and the log says so. Nothing is culled by its facing, so that the
+/// share of back faces tells when an eye has left the solid. `solid` and `pipeline` must outlive
+/// the source.
 /// @throws GlError.
 std::unique_ptr<VisibilitySource> make_raster_source(const Surface& solid,
                                                      RasterPipeline& pipeline);

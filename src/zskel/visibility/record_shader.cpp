@@ -13,6 +13,7 @@ namespace {
 
 constexpr std::size_t kMostGroups = 65535;  // of threads, in one dispatch: what every driver takes
 constexpr GLuint kPatience = 64;
+constexpr GLfloat kCutShort = -1.0f;  // hit_fraction of a record that is none
 
 template <typename T>
 GLsizeiptr bytes_of(const T& items) {
@@ -92,7 +93,11 @@ void RecordShader::look(const Solid& solid, std::span<const Vec3> eyes,
             padded_eyes_.clear();
             for (const Vec3& eye : eyes.subspan(first, count)) padded_eyes_.emplace_back(eye, 0.0f);
             eyes_.fill(gl, padded_eyes_.data(), count * sizeof(glm::vec4));
-            records_.reserve(gl, count * sizeof(EyeRecord));
+            const std::size_t bytes = count * sizeof(EyeRecord);
+            records_.reserve(gl, bytes);
+            // A workgroup that was cut short may not even write that it was.
+            gl.ClearNamedBufferSubData(records_.name, GL_R32F, 0, static_cast<GLsizeiptr>(bytes),
+                                       GL_RED, GL_FLOAT, &kCutShort);
             const GLuint buffers[] = {eyes_.name,        solid.triangles,    solid.block_boxes,
                                       solid.group_boxes, solid.first_blocks, solid.normals,
                                       weights_,          records_.name};
@@ -101,8 +106,7 @@ void RecordShader::look(const Solid& solid, std::span<const Vec3> eyes,
                 gl.BindBufferBase(GL_SHADER_STORAGE_BUFFER, binding++, buffer);
             gl.DispatchCompute(static_cast<GLuint>(count), 1, 1);
             gl.MemoryBarrier(GL_BUFFER_UPDATE_BARRIER_BIT);
-            gl.GetNamedBufferSubData(records_.name, 0,
-                                     static_cast<GLsizeiptr>(count * sizeof(EyeRecord)),
+            gl.GetNamedBufferSubData(records_.name, 0, static_cast<GLsizeiptr>(bytes),
                                      records.data() + first);
         }
     });
