@@ -11,10 +11,16 @@
 #include "zskel/core/log.h"
 #include "zskel/mesh/solid.h"
 #include "zskel/skeleton/volumes.h"
+#include "zskel/visibility/cube_map.h"
 #include "zskel/visibility/surface_query.h"
 
 namespace zskel {
 namespace {
+
+constexpr int kNewtonFacePx = 8;
+// A seed, in the mean; for predictions only.
+constexpr std::size_t kNewtonEvaluations = 5;
+constexpr std::size_t kPaperEvaluations = 47;
 
 // Adds up the seconds of each stage and passes progress on.
 class Stages {
@@ -201,7 +207,9 @@ void add_warnings(const Mesh& mesh, const std::vector<Solid>& solids, const Extr
     for (const SeedReport& seed : result.seeds) ++states[static_cast<std::size_t>(seed.state)];
     for (const SeedState state : {SeedState::StepLimit, SeedState::LeftMesh, SeedState::NoHits}) {
         const std::size_t count = states[static_cast<std::size_t>(state)];
-        if (count > 0) {
+        // Single seeds that are still on their way do no harm; all are counted in the output.
+        const std::size_t bearable = state == SeedState::StepLimit ? result.seeds.size() / 100 : 0;
+        if (count > bearable) {
             result.warnings.push_back(fmt::format("{} of {} seeds ended as {}", count,
                                                   result.seeds.size(), name_of(state)));
         }
@@ -226,6 +234,18 @@ std::string_view name_of(Method method) {
 double ExtractStatistics::seconds() const {
     return std::accumulate(stages.begin(), stages.end(), 0.0,
                            [](double sum, const StageTime& stage) { return sum + stage.seconds; });
+}
+
+BackendOptions backend_options_for(const Mesh& mesh, const ExtractOptions& options,
+                                   BackendOptions backend) {
+    const bool is_paper = options.method == Method::Paper;
+    const std::size_t vertices = mesh.positions.size();
+    const std::size_t seeds =
+        is_paper ? vertices : std::min(vertices, options.newton.spread.min_seeds);
+    if (backend.face_px == 0) backend.face_px = is_paper ? kDefaultFacePx : kNewtonFacePx;
+    backend.work.faces = mesh.triangles.size();
+    backend.work.evaluations = seeds * (is_paper ? kPaperEvaluations : kNewtonEvaluations);
+    return backend;
 }
 
 ExtractResult extract_skeleton(const Mesh& mesh, const ExtractOptions& options, Backend& backend) {

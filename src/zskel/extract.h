@@ -95,6 +95,12 @@ struct ExtractResult {
     Surface surface;  ///< what was worked on: all solids, world space
 };
 
+/// What `backend` leaves open, filled in for this work. Maps of 8 texels a face for newton, whose
+/// skeletons 16 do not better (tools/bench/RESULTS.md), of 16 for the paper's method, whose stop
+/// rule hangs on the force's last digits; and for Auto how much there is to do.
+BackendOptions backend_options_for(const Mesh& mesh, const ExtractOptions& options,
+                                   BackendOptions backend);
+
 /// The whole pipeline: mesh -> surface -> solids -> seeds -> settled seeds -> clusters -> graph ->
 /// refined. Same mesh, options and backend give the same graph, at any number of threads.
 ///

@@ -8,6 +8,7 @@
 
 #include "command.h"
 #include "zskel/io/output_file.h"
+#include "zskel/visibility/cube_map.h"
 
 namespace zskel::cli {
 namespace {
@@ -81,13 +82,15 @@ void add_backend_options(CLI::App& command, BackendOptions& options) {
         .add_option_function<std::string>(
             "--backend",
             [&options](const std::string& name) { options.kind = parse_backend(name); },
-            "auto: the CPU's Z-buffer, or GL when --gpu is given; cpu; gl: the first GL context "
+            "auto: the CPU's Z-buffer or a GPU, by predicted time; cpu; gl: the first GL context "
             "that works; egl; osmesa; ray: Embree; brute: every ray against every triangle")
         ->type_name("NAME");
     command.add_option("--gpu", options.gpu, "Take the hardware device of this number")
         ->check(CLI::Range(0, 1 << 16));
-    command.add_option("--face-px", options.face_px, "Texels along a cube face, 4 to 1024")
-        ->capture_default_str();
+    command
+        .add_option("--face-px", options.face_px,
+                    "Texels along a cube face, 4 to 1024 (default 16; 8 for --method newton)")
+        ->check(CLI::Range(kMinFacePx, kMaxFacePx));
     command
         .add_option("--rays", options.rays,
                     "Ray backends: this many directions an eye, spread evenly, in place of the "

@@ -135,10 +135,16 @@ SkeletonComparison compare_extracts(const Mesh& mesh, const ExtractOptions& opti
 
 ExitCode compare(const Arguments& arguments) {
     const Mesh mesh = read_mesh(arguments.model);
-    const auto tested = open_backend(arguments.tested);
+    ExtractOptions options;
+    BackendOptions tested_options = arguments.tested;
+    if (!arguments.method.empty()) {
+        options.method = parse_method(arguments.method);
+        tested_options = backend_options_for(mesh, options, tested_options);
+    }
+    const auto tested = open_backend(tested_options);
     BackendOptions reference_options;
     reference_options.kind = arguments.reference;
-    reference_options.face_px = arguments.tested.face_px;
+    reference_options.face_px = tested_options.face_px;
     const auto reference = open_backend(reference_options);
     Json out{{"model", arguments.model},
              {"tested", tested->info().name},
@@ -152,8 +158,6 @@ ExitCode compare(const Arguments& arguments) {
         out.update(to_json(c, ComparisonBounds{}));
         text += to_text(c, ComparisonBounds{});
     } else {
-        ExtractOptions options;
-        options.method = parse_method(arguments.method);
         const SkeletonComparison c = compare_extracts(mesh, options, *tested, *reference);
         is_fine = is_within(c, SkeletonBounds{});
         out.update(to_json(c, SkeletonBounds{}));

@@ -141,6 +141,7 @@ ExitCode extract(const Arguments& given, const Common& common) {
     std::unique_ptr<gl::Context> picture_context;
     if (!arguments.picture.empty() || !arguments.picture_paths.empty())
         picture_context = open_picture_context();
+    arguments.backend = backend_options_for(mesh, arguments.extract, arguments.backend);
     const std::unique_ptr<Backend> backend = open_backend(arguments.backend);
     ExtractResult result;
     {

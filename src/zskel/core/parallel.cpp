@@ -16,6 +16,11 @@ void parallel_for(std::size_t count, std::size_t grain,
         [&](const tbb::blocked_range<std::size_t>& range) { body(range.begin(), range.end()); });
 }
 
+int thread_count() {
+    return static_cast<int>(
+        tbb::global_control::active_value(tbb::global_control::max_allowed_parallelism));
+}
+
 void set_thread_limit(int threads) {
     static std::unique_ptr<tbb::global_control> limit;
     limit.reset();

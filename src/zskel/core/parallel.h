@@ -11,6 +11,9 @@ namespace zskel {
 void parallel_for(std::size_t count, std::size_t grain,
                   const std::function<void(std::size_t begin, std::size_t end)>& body);
 
+/// Threads that `parallel_for` may use.
+int thread_count();
+
 /// Limits the threads of every later `parallel_for`; 0 means as many as the machine has.
 void set_thread_limit(int threads);
 

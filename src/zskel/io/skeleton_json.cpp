@@ -177,6 +177,7 @@ Json provenance_json(const Provenance& provenance, const Similarity& world) {
               {"vendor", provenance.backend.vendor},
               {"renderer", provenance.backend.renderer},
               {"version", provenance.backend.version},
+              {"reason", provenance.backend.reason},
               {"failed", failed}}},
             {"world_from_model", {{"center", point(world.center)}, {"scale", world.scale}}}};
 }

@@ -7,6 +7,8 @@
 #include <utility>
 
 #include "zskel/core/error.h"
+#include "zskel/core/log.h"
+#include "zskel/core/parallel.h"
 #include "zskel/visibility/cpu_source.h"
 #include "zskel/visibility/cube_map.h"
 #include "zskel/visibility/raster_source.h"
@@ -107,6 +109,37 @@ std::string reasons(const std::vector<gl::FailedAttempt>& failed) {
     return text.empty() ? "no candidate" : text;
 }
 
+std::unique_ptr<Backend> open_gl(const BackendOptions& options, BackendInfo info,
+                                 std::unique_ptr<gl::Context> context) {
+    info.name = gl::name_of(context->info().kind);
+    info.vendor = context->info().vendor;
+    info.renderer = context->info().renderer;
+    info.version = context->info().version;
+    info.is_raster = true;
+    return std::make_unique<GlBackend>(std::move(info), std::move(context), options.face_px);
+}
+
+// Auto: the CPU, or a GPU where it pays and works.
+std::unique_ptr<Backend> open_fastest(const BackendOptions& options, BackendInfo info) {
+    const Choice choice =
+        choose_source(options.work, options.face_px, thread_count(), has_gpu_device());
+    info.reason = choice.reason;
+    if (choice.is_gpu) {
+        gl::ContextRequest hardware;
+        hardware.software = false;
+        hardware.osmesa = false;
+        std::unique_ptr<gl::Context> context = gl::open_context(hardware, info.failed);
+        if (context != nullptr) {
+            log_info("backend auto: a GPU: {}", info.reason);
+            return open_gl(options, std::move(info), std::move(context));
+        }
+        info.reason += "; but no GPU can be used";
+        log_warning("backend auto: {}: {}", info.reason, reasons(info.failed));
+    }
+    log_info("backend auto: the CPU: {}", info.reason);
+    return open_cpu(options, std::move(info));
+}
+
 void check_options(const BackendOptions& options) {
     if (options.rays != 0 && !is_ray(options.kind)) {
         throw UsageError(fmt::format(
@@ -139,23 +172,21 @@ std::string_view name_of(BackendKind kind) {
     return "";
 }
 
-std::unique_ptr<Backend> open_backend(const BackendOptions& options) {
+std::unique_ptr<Backend> open_backend(const BackendOptions& given) {
+    BackendOptions options = given;
+    if (options.face_px == 0) options.face_px = kDefaultFacePx;
     check_options(options);
     BackendInfo info;
     if (is_ray(options.kind)) return open_rays(options, std::move(info));
-    const bool automatic = options.kind == BackendKind::Auto && options.gpu < 0;
-    if (automatic || options.kind == BackendKind::Cpu) return open_cpu(options, std::move(info));
+    if (options.kind == BackendKind::Cpu) return open_cpu(options, std::move(info));
+    if (options.kind == BackendKind::Auto && options.gpu < 0)
+        return open_fastest(options, std::move(info));
     std::unique_ptr<gl::Context> context = gl::open_context(request_for(options), info.failed);
     if (context == nullptr) {
         throw GlError(fmt::format("backend {} cannot be used: {} (see zskel doctor)",
                                   name_of(options.kind), reasons(info.failed)));
     }
-    info.name = gl::name_of(context->info().kind);
-    info.vendor = context->info().vendor;
-    info.renderer = context->info().renderer;
-    info.version = context->info().version;
-    info.is_raster = true;
-    return std::make_unique<GlBackend>(std::move(info), std::move(context), options.face_px);
+    return open_gl(options, std::move(info), std::move(context));
 }
 
 std::unique_ptr<gl::Context> open_picture_context(int gpu) {

@@ -6,13 +6,15 @@
 #include <vector>
 
 #include "zskel/gl/context.h"
+#include "zskel/visibility/choose.h"
 #include "zskel/visibility/visibility_source.h"
 
 namespace zskel {
 
 /// Where visibility comes from.
 enum class BackendKind {
-    Auto,  ///< the fastest: the CPU's Z-buffer; GL when a GPU is asked for by its number
+    Auto,  ///< the least predicted time: the CPU's Z-buffer, or a GPU; GL when one is asked for by
+           ///< its number
     Gl,    ///< the first GL context that works
     Egl,   ///< the same, without OSMesa
     Osmesa,
@@ -26,9 +28,11 @@ std::string_view name_of(BackendKind kind);
 
 struct BackendOptions {
     BackendKind kind = BackendKind::Auto;
-    int gpu = -1;      ///< number of the hardware device to take; -1: any
-    int face_px = 16;  ///< texels along a cube face
-    int rays = 0;  ///< ray backends only: directions an eye, spread radially; 0: the cube's texels
+    int gpu = -1;     ///< number of the hardware device to take; -1: any
+    int face_px = 0;  ///< texels along a cube face; 0: 16, or what the method needs, see
+                      ///< backend_options_for
+    int rays = 0;   ///< ray backends only: directions an eye, spread radially; 0: the cube's texels
+    Workload work;  ///< what Auto weighs
 };
 
 /// What answers, and why others did not.
@@ -37,6 +41,7 @@ struct BackendInfo {
     std::string vendor;
     std::string renderer;
     std::string version;
+    std::string reason;                     ///< why Auto took it; empty where it was asked for
     std::vector<gl::FailedAttempt> failed;  ///< candidates tried before it
     bool is_raster = false;                 ///< a Z-buffer, not rays
 };

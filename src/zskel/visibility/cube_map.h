@@ -16,6 +16,13 @@ inline constexpr int kMaxFacePx = 1024;
 /// seen.
 inline constexpr float kNearPlane = 1e-6f;
 
+/// What a backend takes unless told otherwise: 5 times closer than the paper's 197 rays.
+inline constexpr int kDefaultFacePx = 16;
+
+/// The largest that a GPU reduces to records where they are: what fits the shared memory that every
+/// driver has (32 KB).
+inline constexpr int kMostReducedFacePx = 16;
+
 /// @throws UsageError unless kMinFacePx <= face_px <= kMaxFacePx.
 void check_face_px(int face_px);
 

@@ -127,7 +127,7 @@ class RasterPipeline {
   private:
     void open_record_shader() {
         has_no_shader_ = true;
-        if (face_px_ > RecordShader::kMostFacePx) {
+        if (face_px_ > kMostReducedFacePx) {
             log_info("cube faces of {} texels: records come from whole maps", face_px_);
             return;
         }

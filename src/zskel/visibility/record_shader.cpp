@@ -23,7 +23,7 @@ GLsizeiptr bytes_of(const T& items) {
 }  // namespace
 
 RecordShader::RecordShader(int face_px, gl::Context& context) : context_(context) {
-    ZSKEL_ASSERT(face_px <= kMostFacePx, "the map fits");
+    ZSKEL_ASSERT(face_px <= kMostReducedFacePx, "the map fits");
     std::vector<float> weights;
     for (int row = 0; row < face_px; ++row) {
         for (int column = 0; column < face_px; ++column)

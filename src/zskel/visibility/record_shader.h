@@ -16,9 +16,6 @@ namespace zskel {
 /// GPU: 16 bytes an eye go there, 52 come back, and all eyes of a call go at once.
 class RecordShader {
   public:
-    /// The largest cube map that fits the shared memory every driver has (32 KB).
-    static constexpr int kMostFacePx = 16;
-
     /// A solid's triangles in the context's memory.
     struct Solid {
         GLuint triangles = 0;
@@ -29,7 +26,7 @@ class RecordShader {
         GLuint groups = 0;
     };
 
-    /// @param face_px  at most kMostFacePx.
+    /// @param face_px  at most kMostReducedFacePx.
     /// @throws GlError with the driver's log.
     RecordShader(int face_px, gl::Context& context);
     ~RecordShader();
