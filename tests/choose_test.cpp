@@ -45,7 +45,7 @@ TEST_CASE("choose: one small mesh stays on the CPU, large work goes to a GPU, if
 TEST_CASE("backend auto: takes the CPU here, says why, and loads no driver") {
     const Mesh mesh = test::cube();
     BackendOptions options = backend_options_for(mesh, {}, {});
-    CHECK(options.face_px == 8);
+    CHECK(options.face_px == 10);
     CHECK(options.work.faces == 12);
     CHECK(options.work.evaluations > 0);
     ExtractOptions paper;

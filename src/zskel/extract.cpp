@@ -17,7 +17,7 @@
 namespace zskel {
 namespace {
 
-constexpr int kNewtonFacePx = 8;
+constexpr int kNewtonFacePx = 10;
 // A seed, in the mean; for predictions only.
 constexpr std::size_t kNewtonEvaluations = 5;
 constexpr std::size_t kPaperEvaluations = 47;

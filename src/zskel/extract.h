@@ -95,7 +95,7 @@ struct ExtractResult {
     Surface surface;  ///< what was worked on: all solids, world space
 };
 
-/// What `backend` leaves open, filled in for this work. Maps of 8 texels a face for newton, whose
+/// What `backend` leaves open, filled in for this work. Maps of 10 texels a face for newton, whose
 /// skeletons 16 do not better (tools/bench/RESULTS.md), of 16 for the paper's method, whose stop
 /// rule hangs on the force's last digits; and for Auto how much there is to do.
 BackendOptions backend_options_for(const Mesh& mesh, const ExtractOptions& options,

@@ -89,7 +89,7 @@ void add_backend_options(CLI::App& command, BackendOptions& options) {
         ->check(CLI::Range(0, 1 << 16));
     command
         .add_option("--face-px", options.face_px,
-                    "Texels along a cube face, 4 to 1024 (default 16; 8 for --method newton)")
+                    "Texels along a cube face, 4 to 1024 (default 16; 10 for --method newton)")
         ->check(CLI::Range(kMinFacePx, kMaxFacePx));
     command
         .add_option("--rays", options.rays,
