@@ -1,5 +1,7 @@
 #include "zskel/visibility/cpu_source.h"
 
+#include "zskel/core/simd_targets.h"
+
 #include <hwy/highway.h>
 
 #include <algorithm>

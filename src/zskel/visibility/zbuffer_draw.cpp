@@ -4,6 +4,7 @@
 // 1/z = g.d with g = n / (n.p0): all are linear in u and v, and nothing has to be clipped. Two
 // triangles that share an edge compute exactly opposite values there, as long as no multiplication
 // is fused into the subtraction of a cross product (-ffp-contract=off), so nothing shows between.
+#include "zskel/core/simd_targets.h"
 #include "zskel/visibility/cube_map.h"
 #include "zskel/visibility/zbuffer.h"
 

@@ -1,5 +1,6 @@
 // `summarize` by registers, compiled once for every instruction set. Sums are taken in each face's
 // own axes (right, up, forward) and turned into the world's at its end.
+#include "zskel/core/simd_targets.h"
 #include "zskel/visibility/zbuffer.h"
 
 #undef HWY_TARGET_INCLUDE
