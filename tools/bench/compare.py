@@ -125,13 +125,16 @@ def measure_sources(build, models, quick):
         check=True,
         stdout=subprocess.PIPE,
     )
+    found = json.loads(out.stdout)
+    said = {int(k.rsplit("_", 1)[1]): int(v) for k, v in found["context"].items() if k.startswith("gpu_from_")}
+    crossover = dict(sorted(said.items()))
     rows = []
-    for run in json.loads(out.stdout)["benchmarks"]:
+    for run in found["benchmarks"]:
         source, face_px, subject = run["name"].split("/")[:3]
         name, faces = subject.split(":")
         us = None if run.get("error_occurred") else run["us_per_eye"]
         rows.append({"source": source, "face_px": int(face_px), "model": name, "faces": int(faces), "us": us})
-    return rows
+    return rows, crossover
 
 
 def print_sources(rows):
@@ -145,6 +148,12 @@ def print_sources(rows):
             f"{model:<16} {faces:>7} "
             + " ".join(f"{of[c]:>8.1f}" if of.get(c) is not None else f"{'-':>8}" for c in columns)
         )
+
+
+def print_crossover(crossover):
+    print("\nEvaluations (16 texels a face) from which `auto` takes a GPU, by prediction, on this machine's threads\n")
+    print("faces       " + " ".join(f"{faces:>9}" for faces in crossover))
+    print("evaluations " + " ".join(f"{count:>9}" for count in crossover.values()))
 
 
 def plot(results, path):
@@ -189,8 +198,9 @@ def main():
             results.append(measure_model(build, model, rounds, folder))
     print_processes(results)
     print_stages(results)
-    sources = measure_sources(build, models, arguments.quick)
+    sources, crossover = measure_sources(build, models, arguments.quick)
     print_sources(sources)
+    print_crossover(crossover)
     if arguments.json:
         arguments.json.write_text(json.dumps({"processes": results, "sources": sources}, indent=1))
     if arguments.plot:

@@ -11,6 +11,7 @@
 #include <string>
 #include <vector>
 
+#include "read_back.h"
 #include "zskel/compare.h"
 #include "zskel/core/error.h"
 #include "zskel/core/parallel.h"
@@ -31,11 +32,13 @@ struct Source {
     BackendKind kind;
     int face_px;
     int rays;
+    bool reads_back;
 };
 constexpr Source kSources[] = {
-    {"cpu", BackendKind::Cpu, 16, 0},     {"cpu", BackendKind::Cpu, 8, 0},
-    {"ray", BackendKind::Ray, 16, 0},     {"ray", BackendKind::Ray, 8, 0},
-    {"ray197", BackendKind::Ray, 0, 197}, {"gl", BackendKind::Gl, 16, 0},
+    {"cpu", BackendKind::Cpu, 16, 0, false},     {"cpu", BackendKind::Cpu, 8, 0, false},
+    {"ray", BackendKind::Ray, 16, 0, false},     {"ray", BackendKind::Ray, 8, 0, false},
+    {"ray197", BackendKind::Ray, 0, 197, false}, {"gl", BackendKind::Gl, 16, 0, false},
+    {"gl-maps", BackendKind::Gl, 16, 0, true},
 };
 constexpr int kEyes = 240;
 constexpr int kSlowEyes = 48;  // software GL
@@ -68,11 +71,12 @@ void look(benchmark::State& state, const Subject& subject, const Source& source)
     try {
         const auto backend = open(source);
         const auto prepared = backend->prepare(subject.surface);
+        ReadBack read_back(*prepared);
         const bool is_slow = source.kind == BackendKind::Gl;
         const auto eyes = std::span(subject.eyes).first(is_slow ? kSlowEyes : subject.eyes.size());
         std::vector<EyeRecord> records(eyes.size());
         for (auto _ : state) {
-            prepared->look(eyes, records);
+            (source.reads_back ? read_back : *prepared).look(eyes, records);
             benchmark::DoNotOptimize(records.data());
         }
         state.counters["us_per_eye"] = benchmark::Counter(
@@ -84,8 +88,22 @@ void look(benchmark::State& state, const Subject& subject, const Source& source)
     }
 }
 
+// Evaluations from which `auto` would take a GPU, were there one; 0: never.
+std::size_t evaluations_for_gpu(std::size_t faces, int face_px) {
+    for (std::size_t evaluations = 1000; evaluations < 1000000000;
+         evaluations += evaluations / 50) {
+        if (choose_source({faces, evaluations}, face_px, thread_count(), true).is_gpu)
+            return evaluations;
+    }
+    return 0;
+}
+
 int run(int argc, char** argv) {
     benchmark::Initialize(&argc, argv);
+    for (const std::size_t faces : {2000, 8000, 32000, 128000, 700000}) {
+        benchmark::AddCustomContext(fmt::format("gpu_from_evaluations_{}", faces),
+                                    std::to_string(evaluations_for_gpu(faces, 16)));
+    }
     set_thread_limit(1);
     try {
         const auto backend = open(kSources[0]);

@@ -1,5 +1,6 @@
 // The paper's Table 1 beside ours, and the question it ends on: what `--method paper` costs by
-// brute-force rays, by Embree's rays and by the GL Z-buffer, and how that grows (its section 4.4).
+// brute-force rays, by Embree's rays, by the CPU's Z-buffer and by GL's, reduced there by the
+// compute shader or read back as maps, and how that grows (its section 4.4).
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
@@ -9,6 +10,7 @@
 #include <filesystem>
 #include <functional>
 
+#include "read_back.h"
 #include "zskel/core/error.h"
 #include "zskel/core/log.h"
 #include "zskel/extract.h"
@@ -124,11 +126,13 @@ void print_table(const std::vector<std::string>& folders, Backend& backend) {
 struct Source {
     const char* name;
     BackendKind kind;
+    bool reads_back;
 };
-constexpr Source kSources[] = {{"brute rays", BackendKind::Brute},
-                               {"Embree", BackendKind::Ray},
-                               {"CPU Z-buffer", BackendKind::Cpu},
-                               {"GL Z-buffer", BackendKind::Gl}};
+constexpr Source kSources[] = {{"brute rays", BackendKind::Brute, false},
+                               {"Embree", BackendKind::Ray, false},
+                               {"CPU Z-buffer", BackendKind::Cpu, false},
+                               {"GL, reduced", BackendKind::Gl, false},
+                               {"GL, maps", BackendKind::Gl, true}};
 
 // Seconds of settling some seeds with each source, for one change at a time.
 void print_growth(const std::string& small, const std::string& large) {
@@ -164,8 +168,10 @@ void print_growth(const std::string& small, const std::string& large) {
         for (std::size_t s = 0; s < std::size(kSources); ++s) {
             const auto backend = backend_of(kSources[s].kind, c.face_px);
             const auto source = backend->prepare(subject.solid.surface);
-            const double seconds = seconds_of(
-                [&] { evaluations = evaluations_of(settle_seeds(*source, seeds, steps)); });
+            ReadBack read_back(*source);
+            VisibilitySource& used = kSources[s].reads_back ? read_back : *source;
+            const double seconds =
+                seconds_of([&] { evaluations = evaluations_of(settle_seeds(used, seeds, steps)); });
             if (base.size() < std::size(kSources)) base.push_back(seconds);
             line += fmt::format(" {:>12.3f} {:>7.2f}", seconds, seconds / base[s]);
         }
