@@ -52,7 +52,7 @@ void SkeletonChecker::add(const Solid& solid, const SurfaceQuery& query,
     expected_cycles_ += skeleton.expected_cycles;
     std::vector<bool> is_free;
     for (const glm::uvec2& edge : skeleton.edges)
-        is_free.push_back(!query.first_hit(skeleton.nodes[edge.x], skeleton.nodes[edge.y]));
+        is_free.push_back(query.sees(skeleton.nodes[edge.x], skeleton.nodes[edge.y]));
     const std::vector<bool> inside = solid.is_closed
                                          ? nodes_inside(query, skeleton, is_free)
                                          : std::vector<bool>(skeleton.nodes.size(), true);

@@ -154,7 +154,7 @@ class Centring {
         for (const std::uint32_t k : {n, other}) {
             if (clearance(k, graph_.at(k)) <= 0.5f * balls_[k].radius) look_round(k);
         }
-        return balls_meet() || !query_.first_hit(graph_.at(other), to);
+        return balls_meet() || query_.sees(graph_.at(other), to);
     }
 
     // A point of the branch two nodes on from `n` over its neighbour `next`.

@@ -43,7 +43,7 @@ void Coverage::add_segment(std::size_t i, const Vec3& a, const Vec3& b, float ra
     const float distance = glm::distance(places_[i], center);
     const float beyond = distance - glm::mix(radius_a, radius_b, share);
     if (beyond >= beyond_[i] && distance >= distance_[i]) return;
-    if (query_.first_hit(center, inside_[i])) return;
+    if (!query_.sees(center, inside_[i])) return;
     beyond_[i] = std::min(beyond_[i], beyond);
     distance_[i] = std::min(distance_[i], distance);
 }

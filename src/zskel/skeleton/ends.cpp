@@ -50,7 +50,7 @@ class EndExtender {
         const float distance = glm::distance(tip, from);
         if (distance <= 1.5f * gap) return;
         const Vec3 end = from + (tip - from) * (1.0f - gap / distance);
-        if (query_.first_hit(from, end)) return;
+        if (!query_.sees(from, end)) return;
         graph_.link(n, graph_.add(end, query_.nearest(end).distance));
         ++extended_;
     }

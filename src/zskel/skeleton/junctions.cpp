@@ -45,7 +45,7 @@ class JunctionMerger {
             const auto& kept = graph_.nodes[keep].links;
             const bool is_double =
                 n == keep || std::find(kept.begin(), kept.end(), n) != kept.end();
-            if (is_double || query_.first_hit(graph_.at(n), graph_.at(keep))) return false;
+            if (is_double || !query_.sees(graph_.at(n), graph_.at(keep))) return false;
         }
         for (std::size_t i = 1; i < branch.size(); ++i) graph_.unlink(branch[i - 1], branch[i]);
         for (const std::uint32_t n : branch) {

@@ -25,7 +25,7 @@ float distance_to(std::span<const Vec3> path, const Vec3& point) {
 
 bool is_free(std::span<const Vec3> path, const SurfaceQuery& query) {
     for (std::size_t i = 1; i < path.size(); ++i) {
-        if (query.first_hit(path[i - 1], path[i])) return false;
+        if (!query.sees(path[i - 1], path[i])) return false;
     }
     return true;
 }
@@ -36,7 +36,7 @@ std::vector<Vec3> pull_tight(const std::vector<Vec3>& path, const SurfaceQuery& 
     for (std::size_t i = 1; i < path.size(); ++i)
         sums.push_back(sums.back() + handles.segment_sum(path[i - 1], path[i]));
     const auto can_skip = [&](std::size_t from, std::size_t to) {
-        return !query.first_hit(path[from], path[to]) &&
+        return query.sees(path[from], path[to]) &&
                handles.segment_sum(path[from], path[to]) == sums[to] - sums[from];
     };
     std::vector<Vec3> out{path.front()};

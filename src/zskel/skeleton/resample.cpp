@@ -86,7 +86,7 @@ class Resampler {
             Vec3 target = is_last ? line.back()
                                   : here + (line[segment] - here) *
                                                (left / glm::distance(here, line[segment]));
-            if (query_.first_hit(at, target) && next < line.size() - (is_last ? 1 : 0) &&
+            if (!query_.sees(at, target) && next < line.size() - (is_last ? 1 : 0) &&
                 line[next] != at && segment > next) {
                 target = line[next++];
                 points.push_back(at = target);

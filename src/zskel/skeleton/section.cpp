@@ -8,7 +8,7 @@
 namespace zskel {
 namespace {
 
-constexpr std::size_t kPairs = 16;
+constexpr std::size_t kPairs = 8;
 constexpr double kMostMedians = 3.0;
 
 }  // namespace

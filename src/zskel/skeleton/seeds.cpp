@@ -21,7 +21,7 @@ std::vector<std::uint32_t> ends_of_unfree(std::span<const glm::uvec2> edges,
     std::vector<std::uint8_t> is_unfree(edges.size());
     parallel_for(edges.size(), 64, [&](std::size_t begin, std::size_t end) {
         for (std::size_t e = begin; e < end; ++e)
-            is_unfree[e] = query.first_hit(points[edges[e].x], points[edges[e].y]).has_value();
+            is_unfree[e] = !query.sees(points[edges[e].x], points[edges[e].y]);
     });
     std::vector<std::uint32_t> ends;
     for (std::size_t e = 0; e < edges.size(); ++e) {

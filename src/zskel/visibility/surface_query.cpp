@@ -67,6 +67,21 @@ bool visit_triangle(RTCPointQueryFunctionArguments* arguments) {
     return true;
 }
 
+// Whose parameter runs from 0 to 1.
+RTCRay segment(const Vec3& from, const Vec3& to) {
+    RTCRay ray{};
+    const Vec3 along = to - from;
+    ray.org_x = from.x;
+    ray.org_y = from.y;
+    ray.org_z = from.z;
+    ray.dir_x = along.x;
+    ray.dir_y = along.y;
+    ray.dir_z = along.z;
+    ray.tfar = 1.0f;
+    ray.mask = 0xFFFFFFFFu;
+    return ray;
+}
+
 }  // namespace
 
 struct SurfaceQuery::Impl {
@@ -90,20 +105,19 @@ SurfaceQuery::Nearest SurfaceQuery::nearest(const Vec3& point) const {
 std::optional<SurfaceQuery::Hit> SurfaceQuery::first_hit(const Vec3& from, const Vec3& to) const {
     RTCIntersectContext context;
     rtcInitIntersectContext(&context);
-    RTCRayHit ray{};
-    const Vec3 along = to - from;
-    ray.ray.org_x = from.x;
-    ray.ray.org_y = from.y;
-    ray.ray.org_z = from.z;
-    ray.ray.dir_x = along.x;
-    ray.ray.dir_y = along.y;
-    ray.ray.dir_z = along.z;
-    ray.ray.tfar = 1.0f;
-    ray.ray.mask = 0xFFFFFFFFu;
+    RTCRayHit ray{segment(from, to), {}};
     ray.hit.geomID = RTC_INVALID_GEOMETRY_ID;
     rtcIntersect1(impl_->scene.get(), &context, &ray);
     if (ray.hit.geomID == RTC_INVALID_GEOMETRY_ID) return std::nullopt;
     return Hit{ray.ray.tfar, ray.hit.primID};
+}
+
+bool SurfaceQuery::sees(const Vec3& from, const Vec3& to) const {
+    RTCIntersectContext context;
+    rtcInitIntersectContext(&context);
+    RTCRay ray = segment(from, to);
+    rtcOccluded1(impl_->scene.get(), &context, &ray);
+    return ray.tfar >= 0.0f;  // Embree's sign of a hit is -inf
 }
 
 float SurfaceQuery::free_way(const Vec3& from, const Vec3& direction, float farthest) const {

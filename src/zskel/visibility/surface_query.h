@@ -31,6 +31,9 @@ class SurfaceQuery {
     /// The first triangle that the segment meets; nothing when it is free.
     std::optional<Hit> first_hit(const Vec3& from, const Vec3& to) const;
 
+    /// Whether the segment meets no triangle: faster than `first_hit`.
+    bool sees(const Vec3& from, const Vec3& to) const;
+
     /// More than any solid's width, world units.
     static constexpr float kFarthest = 4.0f;
 
