@@ -1,9 +1,7 @@
 #include "zskel/skeleton/cluster.h"
 
 #include <algorithm>
-#include <functional>
 #include <optional>
-#include <queue>
 #include <utility>
 
 namespace zskel {
@@ -14,9 +12,45 @@ struct Pair {
     std::uint32_t a;  // cluster names: their number in order of making, points first
     std::uint32_t b;
     std::uint64_t name() const { return std::uint64_t{a} << 32 | b; }
-    bool operator>(const Pair& other) const {
-        return distance != other.distance ? distance > other.distance : name() > other.name();
+    bool operator<(const Pair& other) const {
+        return distance != other.distance ? distance < other.distance : name() < other.name();
     }
+};
+
+// The least pair first. Pairs lie in buckets by their distance, at most 1; most of them die before
+// their turn, and cost nothing but their place.
+class PairQueue {
+  public:
+    void push(const Pair& pair) {
+        const std::size_t bucket = bucket_of(pair);
+        buckets_[bucket].push_back(pair);
+        lowest_ = std::min(lowest_, bucket);
+    }
+
+    // The least of those that `is_alive`, taken out; nothing when there are none.
+    template <typename IsAlive>
+    std::optional<Pair> pop(const IsAlive& is_alive) {
+        for (; lowest_ < buckets_.size(); ++lowest_) {
+            std::vector<Pair>& bucket = buckets_[lowest_];
+            std::erase_if(bucket, [&](const Pair& pair) { return !is_alive(pair); });
+            if (bucket.empty()) continue;
+            const auto least = std::min_element(bucket.begin(), bucket.end());
+            const Pair pair = *least;
+            *least = bucket.back();
+            bucket.pop_back();
+            return pair;
+        }
+        return std::nullopt;
+    }
+
+  private:
+    static constexpr std::size_t kBuckets = 4096;
+    static std::size_t bucket_of(const Pair& pair) {
+        return std::min(static_cast<std::size_t>(pair.distance * kBuckets), kBuckets - 1);
+    }
+
+    std::vector<std::vector<Pair>> buckets_ = std::vector<std::vector<Pair>>(kBuckets);
+    std::size_t lowest_ = kBuckets;  // none before it holds any
 };
 
 struct Cluster {
@@ -39,23 +73,18 @@ class Merger {
         for (std::size_t i = 0; i < points.size(); ++i) {
             clusters_.push_back({DVec3(points[i]), static_cast<double>(ranges[i]), 1.0, {}, kNone});
         }
-        std::vector<Pair> pairs;
         for (const glm::uvec2& link : links) {
             clusters_[link.x].neighbours.push_back(link.y);
             clusters_[link.y].neighbours.push_back(link.x);
-            if (const auto pair = pair_of(link.x, link.y)) pairs.push_back(*pair);
+            if (const auto pair = pair_of(link.x, link.y)) queue_.push(*pair);
         }
-        queue_ = Queue(std::greater<>(), std::move(pairs));
     }
 
     void run() {
-        while (!queue_.empty()) {
-            const Pair pair = queue_.top();
-            queue_.pop();
-            const bool alive =
-                clusters_[pair.a].merged_into == kNone && clusters_[pair.b].merged_into == kNone;
-            if (alive) merge(pair.a, pair.b);
-        }
+        const auto is_alive = [&](const Pair& pair) {
+            return clusters_[pair.a].merged_into == kNone && clusters_[pair.b].merged_into == kNone;
+        };
+        while (const std::optional<Pair> pair = queue_.pop(is_alive)) merge(pair->a, pair->b);
     }
 
     // Halves the way on its way, so that long chains of mergers are walked once.
@@ -73,8 +102,6 @@ class Merger {
     const Cluster& at(std::uint32_t cluster) const { return clusters_[cluster]; }
 
   private:
-    using Queue = std::priority_queue<Pair, std::vector<Pair>, std::greater<>>;
-
     // Two clusters that are near enough to become one.
     std::optional<Pair> pair_of(std::uint32_t a, std::uint32_t b) const {
         const double distance = glm::distance(clusters_[a].center(), clusters_[b].center());
@@ -113,7 +140,7 @@ class Merger {
 
     std::vector<Cluster> clusters_;
     std::vector<std::uint32_t> merged_as_;  // the last merger that listed a cluster
-    Queue queue_;
+    PairQueue queue_;
 };
 
 }  // namespace
