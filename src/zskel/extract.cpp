@@ -65,13 +65,16 @@ SolidSkeleton extract_solid(const Solid& solid, const SurfaceQuery& query,
                             const ExtractOptions& options, Backend& backend, Stages& stages) {
     const MethodProgress progress{[&](std::string_view stage) { stages.begin(stage); },
                                   [&](double share) { stages.report(share); }};
-    stages.begin("backend");
-    auto source = backend.prepare(solid.surface);
-    SolidSkeleton skeleton =
-        options.method == Method::Paper
-            ? extract_by_paper(solid.surface, query, *source, options.paper, progress)
-            : extract_by_newton(solid.surface, query, solid.is_closed, std::move(source),
-                                options.newton, progress);
+    SolidSkeleton skeleton;
+    if (options.method == Method::Paper) {
+        stages.begin("backend");
+        const auto source = backend.prepare(solid.surface);
+        skeleton = extract_by_paper(solid.surface, query, *source, options.paper, progress);
+    } else {
+        skeleton = extract_by_newton(
+            solid.surface, query, solid.is_closed, [&] { return backend.prepare(solid.surface); },
+            options.newton, progress);
+    }
     stages.begin("check");
     if (solid.is_closed)
         skeleton.volumes = node_volumes(solid.surface, skeleton.vertex_node, skeleton.nodes);

@@ -11,6 +11,7 @@
 #include "zskel/core/bucket_sort.h"
 #include "zskel/core/disjoint_sets.h"
 #include "zskel/core/error.h"
+#include "zskel/core/parallel.h"
 #include "zskel/mesh/sides.h"
 #include "zskel/mesh/weld.h"
 
@@ -69,12 +70,12 @@ void drop_duplicates(Welded& welded, PreparedSurface& out) {
         std::array<std::uint32_t, 3> corners;
         std::uint32_t number;
     };
-    std::vector<Face> faces;
-    faces.reserve(welded.triangles.size());
-    for (const Triangle& t : welded.triangles)
-        faces.push_back({sorted_corners(t), static_cast<std::uint32_t>(faces.size())});
-    faces = bucket_sorted(
-        faces, welded.positions.size(), [](const Face& f) { return f.corners[0]; },
+    const auto for_each_face = [&](const auto& visit) {
+        std::uint32_t number = 0;
+        for (const Triangle& t : welded.triangles) visit({sorted_corners(t), number++});
+    };
+    const std::vector<Face> faces = bucket_sorted<Face>(
+        for_each_face, welded.positions.size(), [](const Face& f) { return f.corners[0]; },
         [](const Face& l, const Face& r) {
             return std::tie(l.corners, l.number) < std::tie(r.corners, r.number);
         });
@@ -97,20 +98,61 @@ void drop_duplicates(Welded& welded, PreparedSurface& out) {
     out.repairs.push_back({"duplicate faces dropped", count});
 }
 
-// Twice the signed volume over three of the component's triangles, taken from its centroid:
+// Triangles that hang together, each with whether it has to be turned to agree with the lowest.
+class TurnedSets {
+  public:
+    explicit TurnedSets(std::size_t count) {
+        links_.reserve(count);
+        for (std::uint32_t t = 0; t < count; ++t) links_.push_back(t << 1);
+    }
+
+    struct Found {
+        std::uint32_t lowest;
+        bool turned;
+    };
+    Found find(std::uint32_t t) {
+        bool turned = false;
+        while (links_[t] >> 1 != t) {
+            links_[t] = links_[links_[t] >> 1] ^ (links_[t] & 1);  // halves the way
+            turned = turned != ((links_[t] & 1) != 0);
+            t = links_[t] >> 1;
+        }
+        return {t, turned};
+    }
+
+    // False when they already hang together the other way round.
+    bool unite(std::uint32_t t, std::uint32_t u, bool turn) {
+        Found a = find(t);
+        Found b = find(u);
+        if (a.lowest == b.lowest) return (a.turned != b.turned) == turn;
+        if (b.lowest < a.lowest) std::swap(a, b);
+        links_[b.lowest] = a.lowest << 1 | ((a.turned != b.turned) != turn ? 1u : 0u);
+        return true;
+    }
+
+  private:
+    std::vector<std::uint32_t> links_;  // towards the lowest; the lowest bit: turned against it
+};
+
+// Twice the signed volume over three of every component's triangles, taken from its centroid:
 // positive when they face outward, closed or nearly so.
-double signed_volume(const Welded& welded, const std::vector<std::uint32_t>& members) {
-    DVec3 centroid(0.0);
-    for (const std::uint32_t t : members) centroid += welded.positions[welded.triangles[t].x];
-    centroid /= static_cast<double>(members.size());
-    double volume = 0.0;
-    for (const std::uint32_t t : members) {
+std::vector<double> signed_volumes(const Welded& welded, const PreparedSurface& out) {
+    std::vector<DVec3> centroids(out.component_count, DVec3(0.0));
+    std::vector<double> counts(out.component_count, 0.0);
+    for (std::size_t t = 0; t < welded.triangles.size(); ++t) {
+        centroids[out.component[t]] += welded.positions[welded.triangles[t].x];
+        counts[out.component[t]] += 1.0;
+    }
+    for (std::size_t c = 0; c < centroids.size(); ++c) centroids[c] /= counts[c];
+    std::vector<double> volumes(out.component_count, 0.0);
+    for (std::size_t t = 0; t < welded.triangles.size(); ++t) {
         const Triangle& tri = welded.triangles[t];
-        volume += glm::dot(
+        const DVec3& centroid = centroids[out.component[t]];
+        volumes[out.component[t]] += glm::dot(
             welded.positions[tri.x] - centroid,
             glm::cross(welded.positions[tri.y] - centroid, welded.positions[tri.z] - centroid));
     }
-    return volume;
+    return volumes;
 }
 
 // Whether the triangles at every vertex hang together over edges.
@@ -125,85 +167,62 @@ bool has_whole_fans(const std::vector<Side>& sides, const Welded& welded) {
     return fans == welded.positions.size();
 }
 
-// Walks every component over edges with two triangles, turning neighbours that disagree, then turns
-// the whole component when it faces inward.
+// Joins neighbours over every edge into components, turns those that disagree with the rest, and
+// whole components that face inward.
 void orient(Welded& welded, PreparedSurface& out) {
-    const std::vector<Side> sides = sorted_sides(welded.triangles, welded.positions.size());
-    struct Link {
-        std::uint32_t triangle;
-        bool agrees;
-    };
-    // Neighbours over every edge, those of a triangle one after the other.
-    std::vector<std::uint32_t> first_link(welded.triangles.size() + 1, 0);
-    std::vector<bool> touches_odd_edge(welded.triangles.size(), false);
+    const std::size_t count = welded.triangles.size();
+    std::vector<bool> touches_odd_edge(count, false);
     std::size_t open_edges = 0;
     std::size_t crowded_edges = 0;
-    for_each_edge(sides, [&](std::size_t first, std::size_t last) {
-        const std::size_t count = last - first;
-        out.surface.edges.push_back(sides[first].edge);
-        open_edges += count == 1 ? 1 : 0;
-        crowded_edges += count > 2 ? 1 : 0;
-        for (std::size_t i = first; i < last && count != 2; ++i) {
-            touches_odd_edge[sides[i].triangle] = true;
-        }
-        for (std::size_t i = first; i + 1 < last; ++i) {
-            ++first_link[sides[i].triangle + 1];
-            ++first_link[sides[i + 1].triangle + 1];
-        }
-    });
-    out.fans_are_whole = has_whole_fans(sides, welded);
-    std::partial_sum(first_link.begin(), first_link.end(), first_link.begin());
-    std::vector<Link> links(first_link.back());
-    std::vector<std::uint32_t> next_link(first_link.begin(), first_link.end() - 1);
-    for_each_edge(sides, [&](std::size_t first, std::size_t last) {
-        for (std::size_t i = first; i + 1 < last; ++i) {
-            const Side& a = sides[i];
-            const Side& b = sides[i + 1];
-            const bool agrees = a.is_forward != b.is_forward || last - first > 2;
-            links[next_link[a.triangle]++] = {b.triangle, agrees};
-            links[next_link[b.triangle]++] = {a.triangle, agrees};
-        }
-    });
+    std::size_t contradictions = 0;
+    TurnedSets sets(count);
+    {
+        const std::vector<Side> sides = sorted_sides(welded.triangles, welded.positions.size());
+        for_each_edge(sides, [&](std::size_t first, std::size_t last) {
+            const std::size_t share = last - first;
+            out.surface.edges.push_back(sides[first].edge);
+            open_edges += share == 1 ? 1 : 0;
+            crowded_edges += share > 2 ? 1 : 0;
+            for (std::size_t i = first; i < last && share != 2; ++i)
+                touches_odd_edge[sides[i].triangle] = true;
+            for (std::size_t i = first; i + 1 < last; ++i) {
+                const Side& a = sides[i];
+                const Side& b = sides[i + 1];
+                const bool agrees = a.is_forward != b.is_forward || share > 2;
+                contradictions += sets.unite(a.triangle, b.triangle, !agrees) ? 0 : 1;
+            }
+        });
+        out.fans_are_whole = has_whole_fans(sides, welded);
+    }
 
+    out.component.assign(count, kNone);
+    std::vector<std::size_t> sizes;
+    std::vector<std::size_t> turns;
+    for (std::uint32_t t = 0; t < count; ++t) {
+        const TurnedSets::Found found = sets.find(t);
+        if (found.lowest == t) {
+            out.component[t] = out.component_count++;
+            out.component_closed.push_back(true);
+            sizes.push_back(0);
+            turns.push_back(0);
+        }
+        const std::uint32_t c = out.component[t] = out.component[found.lowest];
+        if (touches_odd_edge[t]) out.component_closed[c] = false;
+        ++sizes[c];
+        if (!found.turned) continue;
+        ++turns[c];
+        std::swap(welded.triangles[t].y, welded.triangles[t].z);
+    }
+    const std::vector<double> volumes = signed_volumes(welded, out);
+    for (std::size_t t = 0; t < count; ++t) {
+        if (volumes[out.component[t]] < 0.0)
+            std::swap(welded.triangles[t].y, welded.triangles[t].z);
+    }
     std::size_t turned_faces = 0;
     std::size_t turned_components = 0;
-    std::size_t contradictions = 0;
-    out.component.assign(welded.triangles.size(), kNone);
-    std::vector<bool> turned(welded.triangles.size(), false);
-    for (std::uint32_t start = 0; start < welded.triangles.size(); ++start) {
-        if (out.component[start] != kNone) continue;
-        std::vector<std::uint32_t> members{start};
-        out.component[start] = out.component_count;
-        bool closed = true;
-        for (std::size_t next = 0; next < members.size(); ++next) {
-            const std::uint32_t t = members[next];
-            closed = closed && !touches_odd_edge[t];
-            for (std::uint32_t l = first_link[t]; l < first_link[t + 1]; ++l) {
-                const Link& link = links[l];
-                const bool turn = turned[t] != !link.agrees;
-                if (out.component[link.triangle] == kNone) {
-                    out.component[link.triangle] = out.component_count;
-                    turned[link.triangle] = turn;
-                    members.push_back(link.triangle);
-                } else if (turned[link.triangle] != turn) {
-                    ++contradictions;
-                }
-            }
-        }
-        std::size_t turns = 0;
-        for (const std::uint32_t t : members) {
-            turns += turned[t] ? 1 : 0;
-            if (turned[t]) std::swap(welded.triangles[t].y, welded.triangles[t].z);
-        }
-        turned_faces += std::min(turns, members.size() - turns);
-        if (signed_volume(welded, members) < 0.0) {
-            for (const std::uint32_t t : members) {
-                std::swap(welded.triangles[t].y, welded.triangles[t].z);
-            }
-            turned_components += turns * 2 < members.size() ? 1 : 0;
-        }
-        out.component_closed.push_back(closed);
-        ++out.component_count;
+    for (std::size_t c = 0; c < volumes.size(); ++c) {
+        turned_faces += std::min(turns[c], sizes[c] - turns[c]);
+        turned_components += volumes[c] < 0.0 && turns[c] * 2 < sizes[c] ? 1 : 0;
     }
     if (turned_faces > 0)
         out.repairs.push_back({"faces turned to agree with their neighbours", turned_faces});
@@ -221,7 +240,7 @@ void orient(Welded& welded, PreparedSurface& out) {
         out.repairs.push_back(
             {"edges where no consistent orientation exists: there, inside and outside are not "
              "known",
-             contradictions / 2});
+             contradictions});
     }
 }
 
@@ -294,22 +313,29 @@ PreparedSurface prepare_surface(const Mesh& mesh, WorldSize size) {
 }
 
 void derive_normals(Surface& surface) {
-    surface.triangle_normals.assign(surface.triangles.size(), Vec3(0.0f));
-    std::vector<DVec3> sums(surface.positions.size(), DVec3(0.0));
-    for (std::size_t t = 0; t < surface.triangles.size(); ++t) {
-        const Triangle& tri = surface.triangles[t];
-        const std::array<DVec3, 3> p{surface.positions[tri.x], surface.positions[tri.y],
-                                     surface.positions[tri.z]};
-        const DVec3 normal = glm::cross(p[1] - p[0], p[2] - p[0]);
-        const double length = glm::length(normal);
-        if (!(length > 0.0)) continue;
-        surface.triangle_normals[t] = Vec3(normal / length);
-        for (int k = 0; k < 3; ++k) {
-            const DVec3 a = p[(k + 1) % 3] - p[k];
-            const DVec3 b = p[(k + 2) % 3] - p[k];
-            const double angle = std::atan2(glm::length(glm::cross(a, b)), glm::dot(a, b));
-            sums[tri[k]] += normal / length * angle;
+    const std::size_t count = surface.triangles.size();
+    surface.triangle_normals.assign(count, Vec3(0.0f));
+    std::vector<DVec3> angles(count, DVec3(0.0));  // at the three corners
+    parallel_for(count, 4096, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t t = begin; t < end; ++t) {
+            const Triangle& tri = surface.triangles[t];
+            const std::array<DVec3, 3> p{surface.positions[tri.x], surface.positions[tri.y],
+                                         surface.positions[tri.z]};
+            const DVec3 normal = glm::cross(p[1] - p[0], p[2] - p[0]);
+            const double length = glm::length(normal);
+            if (!(length > 0.0)) continue;
+            surface.triangle_normals[t] = Vec3(normal / length);
+            for (int k = 0; k < 3; ++k) {
+                const DVec3 a = p[(k + 1) % 3] - p[k];
+                const DVec3 b = p[(k + 2) % 3] - p[k];
+                angles[t][k] = std::atan2(glm::length(glm::cross(a, b)), glm::dot(a, b));
+            }
         }
+    });
+    std::vector<DVec3> sums(surface.positions.size(), DVec3(0.0));
+    for (std::size_t t = 0; t < count; ++t) {
+        const DVec3 normal(surface.triangle_normals[t]);
+        for (int k = 0; k < 3; ++k) sums[surface.triangles[t][k]] += normal * angles[t][k];
     }
     surface.vertex_normals.clear();
     surface.vertex_normals.reserve(sums.size());

@@ -56,7 +56,9 @@ SolidSkeleton extract_by_paper(const Surface& surface, const SurfaceQuery& query
 
 /// Newton steps from spread seeds, a network with the solid's topology, refined.
 /// @param is_closed  whether handles are to be found; on an open surface the network is a forest.
-/// @param source     let go of when all seeds are at rest.
+/// @param make_source  called once, beside other work; what it makes is let go of when all seeds
+/// are
+///                     at rest.
 struct NewtonMethodOptions {
     SeedOptions seeds;
     SpreadOptions spread;
@@ -69,8 +71,9 @@ struct NewtonMethodOptions {
     double min_handle_model = 0.0;  ///< handles of a smaller radius get no cycle; see SmallHandle
     RefineOptions refine;
 };
-SolidSkeleton extract_by_newton(const Surface& surface, const SurfaceQuery& query, bool is_closed,
-                                std::unique_ptr<VisibilitySource> source,
-                                const NewtonMethodOptions& options, const MethodProgress& progress);
+SolidSkeleton extract_by_newton(
+    const Surface& surface, const SurfaceQuery& query, bool is_closed,
+    const std::function<std::unique_ptr<VisibilitySource>()>& make_source,
+    const NewtonMethodOptions& options, const MethodProgress& progress);
 
 }  // namespace zskel

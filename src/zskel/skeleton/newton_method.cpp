@@ -93,16 +93,25 @@ void flatten(const CurveGraph& graph, const Surface& surface, const SeedSpread& 
 
 }  // namespace
 
-SolidSkeleton extract_by_newton(const Surface& surface, const SurfaceQuery& query, bool is_closed,
-                                std::unique_ptr<VisibilitySource> source,
-                                const NewtonMethodOptions& options,
-                                const MethodProgress& progress) {
+SolidSkeleton extract_by_newton(
+    const Surface& surface, const SurfaceQuery& query, bool is_closed,
+    const std::function<std::unique_ptr<VisibilitySource>()>& make_source,
+    const NewtonMethodOptions& options, const MethodProgress& progress) {
     SolidSkeleton out;
     progress.begin("seeds");
     const std::vector<float> thickness = vertex_thickness(surface, query);
     const std::vector<Vec3> starts = inner_points(surface, thickness, options.seeds);
-    const std::vector<Vec3> inner = walkable_points(surface, query, starts);
-    const SeedSpread spread = spread_seeds(surface, thickness, options.spread);
+    std::vector<Vec3> inner;
+    SeedSpread spread;
+    std::unique_ptr<VisibilitySource> source;
+    // One front after the other is work for one thread.
+    parallel_for(2, 1, [&](std::size_t begin, std::size_t end) {
+        if (begin == 0) spread = spread_seeds(surface, thickness, options.spread);
+        if (end == 2) {
+            source = make_source();
+            inner = walkable_points(surface, query, starts);
+        }
+    });
     for (const std::uint32_t v : spread.vertices) out.seeds.push_back({starts[v], v});
     out.seed_spacing_thickness = spread.spacing_thickness;
     out.seed_end = spread.end;

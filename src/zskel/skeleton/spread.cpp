@@ -3,10 +3,9 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <numeric>
 #include <queue>
 #include <utility>
-
-#include "zskel/mesh/vertex_graph.h"
 
 namespace zskel {
 namespace {
@@ -27,18 +26,21 @@ class Spreader {
   public:
     Spreader(const Surface& surface, std::span<const float> thickness)
         : reached_(surface.positions.size()) {
-        const VertexGraph graph(surface.positions.size(), surface.edges);
-        first_.reserve(graph.size() + 1);
-        links_.reserve(surface.edges.size() * 2);
-        for (std::uint32_t v = 0; v < graph.size(); ++v) {
-            first_.push_back(static_cast<std::uint32_t>(links_.size()));
-            for (const VertexGraph::Link& link : graph.of(v)) {
-                const std::uint32_t other = link.vertex;
-                const float along = glm::distance(surface.positions[v], surface.positions[other]);
-                links_.push_back({other, 2.0f * along / (thickness[v] + thickness[other])});
-            }
+        // Every vertex' links stand together, in the order of the edges.
+        first_.assign(surface.positions.size() + 1, 0);
+        for (const glm::uvec2& e : surface.edges) {
+            ++first_[e.x + 1];
+            ++first_[e.y + 1];
         }
-        first_.push_back(static_cast<std::uint32_t>(links_.size()));
+        std::partial_sum(first_.begin(), first_.end(), first_.begin());
+        std::vector<std::uint32_t> next(first_.begin(), first_.end() - 1);
+        links_.resize(surface.edges.size() * 2);
+        for (const glm::uvec2& e : surface.edges) {
+            const float length = glm::distance(surface.positions[e.x], surface.positions[e.y]);
+            const float relative = 2.0f * length / (thickness[e.x] + thickness[e.y]);
+            links_[next[e.x]++] = {e.y, relative};
+            links_[next[e.y]++] = {e.x, relative};
+        }
         double sum = 0.0;
         for (const Link& link : links_) sum += static_cast<double>(link.length);
         const double mean = links_.empty() ? 0.0 : sum / static_cast<double>(links_.size());
