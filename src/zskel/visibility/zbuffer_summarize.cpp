@@ -93,8 +93,8 @@ EyeRecord summarize(const Surface& surface, const TexelGrid& grid, const ZBuffer
                 push[2] = hn::Add(share, push[2]);
 
                 const auto id = hn::Load(di, ids + at);
-                const auto base =
-                    hn::IfThenElseZero(hn::RebindMask(di, hit), hn::Add(hn::Add(id, id), id));
+                // Nothing seen, and a row's padding, are -1; any normal does, since they weigh 0.
+                const auto base = hn::Max(hn::Add(hn::Add(id, id), id), hn::Zero(di));
                 const auto normal = [&](int k) {
                     return hn::Mul(hn::Set(d, face.sign[k]),
                                    hn::GatherIndex(d, normals + face.axis[k], base));
