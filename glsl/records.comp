@@ -216,6 +216,7 @@ void sum_texels() {
         float inverse = uintBitsToFloat(depth[i]) * inverse_length;  // 1 / distance_radial
         float weight = weights[at];
         float share = weight * inverse;
+        if (seen[i] == kNone) is_cut_short = 1u;  // not drawn twice alike
         uint id = seen[i] == kNone ? 0u : 3u * seen[i];
         vec3 n = vec3(normals[id], normals[id + 1u], normals[id + 2u]);
         float facing = dot(n, d);
@@ -261,7 +262,8 @@ void main() {
     float from = 0.0;
     float to = kFirstShell;
     for (int shell = 0; shell < kShells; ++shell) {
-        sweep(from, shell + 1 < kShells ? to : kInfinity, false);
+        // Shells overlap, lest rounding leave a group between two.
+        sweep(0.9999 * from, shell + 1 < kShells ? to : kInfinity, false);
         from = to;
         to *= kShellRatio;
     }

@@ -1,6 +1,7 @@
 #include "zskel/skeleton/cluster.h"
 
 #include <algorithm>
+#include <functional>
 #include <optional>
 #include <utility>
 
@@ -12,18 +13,19 @@ struct Pair {
     std::uint32_t a;  // cluster names: their number in order of making, points first
     std::uint32_t b;
     std::uint64_t name() const { return std::uint64_t{a} << 32 | b; }
-    bool operator<(const Pair& other) const {
-        return distance != other.distance ? distance < other.distance : name() < other.name();
+    bool operator>(const Pair& other) const {
+        return distance != other.distance ? distance > other.distance : name() > other.name();
     }
 };
 
-// The least pair first. Pairs lie in buckets by their distance, at most 1; most of them die before
-// their turn, and cost nothing but their place.
+// The least pair first. Pairs lie in buckets by their distance, at most 1, each bucket a heap; most
+// of them die before their turn.
 class PairQueue {
   public:
     void push(const Pair& pair) {
         const std::size_t bucket = bucket_of(pair);
         buckets_[bucket].push_back(pair);
+        std::push_heap(buckets_[bucket].begin(), buckets_[bucket].end(), std::greater<>());
         lowest_ = std::min(lowest_, bucket);
     }
 
@@ -32,13 +34,12 @@ class PairQueue {
     std::optional<Pair> pop(const IsAlive& is_alive) {
         for (; lowest_ < buckets_.size(); ++lowest_) {
             std::vector<Pair>& bucket = buckets_[lowest_];
-            std::erase_if(bucket, [&](const Pair& pair) { return !is_alive(pair); });
-            if (bucket.empty()) continue;
-            const auto least = std::min_element(bucket.begin(), bucket.end());
-            const Pair pair = *least;
-            *least = bucket.back();
-            bucket.pop_back();
-            return pair;
+            while (!bucket.empty()) {
+                std::pop_heap(bucket.begin(), bucket.end(), std::greater<>());
+                const Pair pair = bucket.back();
+                bucket.pop_back();
+                if (is_alive(pair)) return pair;
+            }
         }
         return std::nullopt;
     }

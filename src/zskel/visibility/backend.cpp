@@ -130,8 +130,13 @@ std::unique_ptr<Backend> open_fastest(const BackendOptions& options, BackendInfo
         hardware.osmesa = false;
         std::unique_ptr<gl::Context> context = gl::open_context(hardware, info.failed);
         if (context != nullptr) {
-            log_info("backend auto: a GPU: {}", info.reason);
-            return open_gl(options, std::move(info), std::move(context));
+            try {
+                auto backend = open_gl(options, info, std::move(context));
+                log_info("backend auto: a GPU: {}", info.reason);
+                return backend;
+            } catch (const GlError& error) {
+                info.failed.push_back({"the GPU's pipeline", error.what()});
+            }
         }
         info.reason += "; but no GPU can be used";
         log_warning("backend auto: {}: {}", info.reason, reasons(info.failed));

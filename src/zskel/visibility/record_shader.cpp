@@ -33,7 +33,8 @@ RecordShader::RecordShader(int face_px, gl::Context& context) : context_(context
         program_ = gl::build_program(gl, {{GL_COMPUTE_SHADER, "records.comp", glsl::kRecordsComp}});
         gl.UseProgram(program_);
         gl.Uniform1i(gl::uniform(gl, program_, "face_px"), face_px);
-        gl.Uniform1ui(gl::uniform(gl, program_, "patience"), kPatience);
+        // A driver that sees through the loop may leave it out, and its uniform.
+        gl.Uniform1ui(gl.GetUniformLocation(program_, "patience"), kPatience);
         gl.Uniform1f(gl::uniform(gl, program_, "near_plane"), kNearPlane);
         gl.Uniform1f(gl::uniform(gl, program_, "ahead_cosine"), kAheadCosine);
         gl.Uniform1f(gl::uniform(gl, program_, "grazing_cosine"), kGrazingCosine);
