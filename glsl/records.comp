@@ -64,6 +64,12 @@ vec3 eye = eyes[gl_WorkGroupID.x].xyz;
 float center(int i) { return (2.0 * float(i) + 1.0) / float(face_px) - 1.0; }
 uint texel_index(int face, int row, int column) { return uint((face * face_px + row) * face_px + column); }
 
+// World space, with axial length 1.
+vec3 texel_direction(int i) {
+    int at = i % (face_px * face_px);
+    return vec3(center(at % face_px), center(at / face_px), 1.0) * face_from_world[i / (face_px * face_px)];
+}
+
 // First column and row, last column and row of the centres between two corners on a face.
 ivec4 texels_between(vec2 low, vec2 high) {
     vec2 middle = vec2(0.5 * float(face_px) - 0.5);
@@ -209,12 +215,11 @@ void sum_texels() {
     int per_face = face_px * face_px;
     for (int i = int(thread); i < 6 * per_face; i += int(kThreads)) {
         if (depth[i] == 0u) continue;
-        int at = i % per_face;
-        vec3 direction = vec3(center(at % face_px), center(at / face_px), 1.0) * face_from_world[i / per_face];
+        vec3 direction = texel_direction(i);
         float inverse_length = inversesqrt(dot(direction, direction));
         vec3 d = direction * inverse_length;
         float inverse = uintBitsToFloat(depth[i]) * inverse_length;  // 1 / distance_radial
-        float weight = weights[at];
+        float weight = weights[i % per_face];
         float share = weight * inverse;
         if (seen[i] == kNone) is_cut_short = 1u;  // not drawn twice alike
         uint id = seen[i] == kNone ? 0u : 3u * seen[i];
@@ -241,10 +246,8 @@ void sum_texels() {
 // 1 / (least distance ahead) of this thread's texels.
 float look_ahead(vec3 ahead) {
     float greatest = 0.0;
-    int per_face = face_px * face_px;
-    for (int i = int(thread); i < 6 * per_face; i += int(kThreads)) {
-        int at = i % per_face;
-        vec3 direction = vec3(center(at % face_px), center(at / face_px), 1.0) * face_from_world[i / per_face];
+    for (int i = int(thread); i < 6 * face_px * face_px; i += int(kThreads)) {
+        vec3 direction = texel_direction(i);
         float along = dot(direction, ahead);
         if (along >= ahead_cosine * length(direction)) greatest = max(greatest, uintBitsToFloat(depth[i]) / along);
     }

@@ -248,11 +248,12 @@ class RasterSource : public VisibilitySource {
         if (shader != nullptr && !shaded_ && !too_large_) {
             shaded_ = shader->upload(solid());
             too_large_ = !shaded_;
-            if (too_large_)
+            if (too_large_) {
                 log_warning(
                     "{} triangles are too many for the driver's compute shaders: "
                     "records come from whole maps",
                     solid().triangles.size());
+            }
         }
         if (!shaded_) return VisibilitySource::look(eyes, records);
         shader->look(*shaded_, eyes, records);
