@@ -42,7 +42,7 @@ std::vector<float> girths_at(const SurfaceQuery& query, std::span<const Vec3> po
 
 std::vector<float> depths_under(const SurfaceQuery& query, std::span<const Vec3> inside,
                                 std::span<const Vec3> normals) {
-    const std::vector<Vec3> directions = directions_round(4 * kDirections);
+    const std::vector<Vec3> directions = directions_round(2 * kDirections);
     std::vector<float> out(inside.size());
     parallel_for(inside.size(), 8, [&](std::size_t begin, std::size_t end) {
         std::vector<Vec3> down;
