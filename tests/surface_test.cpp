@@ -82,6 +82,32 @@ TEST_CASE(
     }
 }
 
+TEST_CASE("prepare_surface: a fin does not say which of its neighbours is turned") {
+    const Mesh cube = test::cube();
+    const Triangle& root = cube.triangles[0];
+    for (std::size_t flipped = 0; flipped < cube.triangles.size(); ++flipped) {
+        Mesh mesh = cube;
+        mesh.positions.emplace_back(0.5, -3, -3);
+        test::add_triangle(mesh, root.x, root.y,
+                           static_cast<std::uint32_t>(mesh.positions.size() - 1));
+        std::swap(mesh.triangles[flipped].y, mesh.triangles[flipped].z);
+        const PreparedSurface prepared = prepare_surface(mesh);
+        INFO("flipped " << flipped);
+        CHECK(has_repair(prepared, "non-manifold"));
+        CHECK_FALSE(has_repair(prepared, "no consistent orientation"));
+        // The area vectors of a closed surface add up to nothing when its faces agree.
+        const Surface& surface = prepared.surface;
+        DVec3 sum(0.0);
+        for (std::size_t t = 0; t < cube.triangles.size(); ++t) {
+            const Triangle& corners = surface.triangles[t];
+            const DVec3 a(surface.positions[corners.x]);
+            sum += glm::cross(DVec3(surface.positions[corners.y]) - a,
+                              DVec3(surface.positions[corners.z]) - a);
+        }
+        CHECK(glm::length(sum) < 1e-6);
+    }
+}
+
 TEST_CASE("prepare_surface: unreferenced vertices have no place") {
     Mesh mesh = test::cube();
     mesh.positions.emplace_back(100, 100, 100);

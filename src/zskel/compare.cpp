@@ -38,8 +38,12 @@ std::vector<std::array<std::uint32_t, 4>> texel_neighbours(int face_px) {
     return out;
 }
 
+// What is no number is out of every bound.
 double quantile(std::vector<double>& values, double share) {
     if (values.empty()) return 0.0;
+    std::replace_if(
+        values.begin(), values.end(), [](double v) { return std::isnan(v); },
+        std::numeric_limits<double>::infinity());
     const auto rank =
         static_cast<std::size_t>(std::ceil(share * static_cast<double>(values.size()))) - 1;
     const auto at = values.begin() + static_cast<std::ptrdiff_t>(std::min(rank, values.size() - 1));

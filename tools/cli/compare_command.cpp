@@ -81,10 +81,13 @@ std::string to_text(const SourceComparison& c, const ComparisonBounds& bounds) {
                         100 * c.id_agreement_inner, 100 * c.id_agreement_all);
     text += fmt::format("force, over the mean of 1/r: median {:.2e}   95 % {:.2e}   worst {:.2e}\n",
                         c.force_error_median, c.force_error_p95, c.force_error_worst);
-    text += fmt::format(
-        "Jacobian, at the {} eyes that see the same triangles: median {:.2e}   95 % {:.2e}   worst "
-        "{:.2e}\n",
-        c.jacobians, c.jacobian_error_median, c.jacobian_error_p95, c.jacobian_error_worst);
+    text += c.jacobians == 0
+                ? "Jacobian: not compared, since no eye sees the same triangles in both\n"
+                : fmt::format(
+                      "Jacobian, at the {} eyes that see the same triangles: median {:.2e}   95 % "
+                      "{:.2e}   worst {:.2e}\n",
+                      c.jacobians, c.jacobian_error_median, c.jacobian_error_p95,
+                      c.jacobian_error_worst);
     text += fmt::format(
         "angle, at the {} eyes where it means something: median {:.4f}   worst {:.4f} degrees\n",
         c.angles, c.angle_median_deg, c.angle_worst_deg);

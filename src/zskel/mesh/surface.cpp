@@ -176,6 +176,8 @@ void orient(Welded& welded, PreparedSurface& out) {
     std::size_t crowded_edges = 0;
     std::size_t contradictions = 0;
     TurnedSets sets(count);
+    // Neighbours over edges of more than two faces: which of them turns with which cannot be told.
+    std::vector<glm::uvec2> crowd;
     {
         const std::vector<Side> sides = sorted_sides(welded.triangles, welded.positions.size());
         for_each_edge(sides, [&](std::size_t first, std::size_t last) {
@@ -188,12 +190,17 @@ void orient(Welded& welded, PreparedSurface& out) {
             for (std::size_t i = first; i + 1 < last; ++i) {
                 const Side& a = sides[i];
                 const Side& b = sides[i + 1];
-                const bool agrees = a.is_forward != b.is_forward || share > 2;
+                if (share > 2) {
+                    crowd.emplace_back(a.triangle, b.triangle);
+                    continue;
+                }
+                const bool agrees = a.is_forward != b.is_forward;
                 contradictions += sets.unite(a.triangle, b.triangle, !agrees) ? 0 : 1;
             }
         });
         out.fans_are_whole = has_whole_fans(sides, welded);
     }
+    for (const glm::uvec2& pair : crowd) sets.unite(pair.x, pair.y, false);
 
     out.component.assign(count, kNone);
     std::vector<std::size_t> sizes;
