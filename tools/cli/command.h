@@ -26,6 +26,7 @@ void add_convert_command(CLI::App& app, const Common& common, Run& run);
 void add_depth_command(CLI::App& app, const Common& common, Run& run);
 void add_doctor_command(CLI::App& app, const Common& common, Run& run);
 void add_extract_command(CLI::App& app, const Common& common, Run& run);
+void add_rig_command(CLI::App& app, const Common& common, Run& run);
 
 /// Adds --backend, --gpu, --face-px and --rays to a subcommand.
 void add_backend_options(CLI::App& command, BackendOptions& options);

@@ -24,6 +24,7 @@ constexpr const char* kFooter = R"(Exit codes:
 Examples:
   zskel extract models/horse.obj -o horse.json --picture horse.png
   zskel convert horse.json -o horse.swc
+  zskel rig horse.obj -o horse.glb
   zskel check scan.ply
   zskel doctor)";
 
@@ -115,6 +116,7 @@ int run_program(int argc, char** argv) {
     Run run;
     add_extract_command(app, common, run);
     add_convert_command(app, common, run);
+    add_rig_command(app, common, run);
     add_check_command(app, common, run);
     add_depth_command(app, common, run);
     add_compare_command(app, common, run);

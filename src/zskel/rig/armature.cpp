@@ -1,0 +1,298 @@
+#include "zskel/rig/armature.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <limits>
+#include <map>
+#include <queue>
+#include <utility>
+
+#include "zskel/core/error.h"
+
+namespace zskel {
+namespace {
+
+constexpr double kCoarser = 1.25;  // each time that there are too many bones
+constexpr int kMostCoarser = 30;
+
+// From a root, junction or end of the trees to the next.
+struct Chain {
+    std::vector<std::uint32_t> nodes;
+    std::uint32_t parent = kNone;  // chain
+    double length = 0.0;
+    bool is_dropped = false;
+    std::vector<std::size_t> joints;  // places in `nodes` where bones meet, its two ends among them
+    std::uint32_t last_bone = kNone;
+};
+
+class ArmatureBuilder {
+  public:
+    ArmatureBuilder(const SkeletonGraph& graph, const ArmatureOptions& options)
+        : graph_(graph),
+          options_(options),
+          links_(node_links(graph)),
+          parents_(graph.nodes.size(), kNone),
+          children_(graph.nodes.size()),
+          roots_(graph.nodes.size(), kNone) {}
+
+    Armature build() {
+        grow_trees();
+        cut_chains();
+        fit_bones();
+        name_branches();
+        for (Chain& chain : chains_) place_bones(chain);
+        place_lone_nodes();
+        place_dropped();
+        note_cuts();
+        return std::move(out_);
+    }
+
+  private:
+    const DVec3& at(std::uint32_t node) const { return graph_.nodes[node].position; }
+    double radius(std::uint32_t node) const { return graph_.nodes[node].radius; }
+
+    // The shortest ways from the root of each component.
+    void grow_trees() {
+        for (std::uint32_t first = 0; first < links_.size(); ++first) {
+            if (roots_[first] != kNone) continue;
+            const auto number = static_cast<std::uint32_t>(out_.roots.size());
+            std::vector<std::uint32_t> part{first};
+            roots_[first] = number;
+            for (std::size_t i = 0; i < part.size(); ++i) {
+                for (const std::uint32_t next : links_[part[i]]) {
+                    if (roots_[next] != kNone) continue;
+                    roots_[next] = number;
+                    part.push_back(next);
+                }
+            }
+            const std::uint32_t root =
+                *std::max_element(part.begin(), part.end(), [&](std::uint32_t a, std::uint32_t b) {
+                    const bool a_joins = links_[a].size() > 2;
+                    const bool b_joins = links_[b].size() > 2;
+                    return a_joins != b_joins ? b_joins : radius(a) < radius(b);
+                });
+            out_.roots.push_back(at(root));
+            root_nodes_.push_back(root);
+            grow_tree(root);
+        }
+        for (std::uint32_t n = 0; n < parents_.size(); ++n) {
+            if (parents_[n] != kNone) children_[parents_[n]].push_back(n);
+        }
+    }
+
+    void grow_tree(std::uint32_t root) {
+        using Entry = std::pair<double, std::uint32_t>;
+        std::vector<double>& ways = ways_;
+        ways.resize(links_.size(), std::numeric_limits<double>::infinity());
+        std::priority_queue<Entry, std::vector<Entry>, std::greater<>> front;
+        ways[root] = 0.0;
+        front.emplace(0.0, root);
+        while (!front.empty()) {
+            const auto [way, n] = front.top();
+            front.pop();
+            if (way > ways[n]) continue;
+            for (const std::uint32_t next : links_[n]) {
+                const double there = way + glm::distance(at(n), at(next));
+                if (there >= ways[next]) continue;
+                ways[next] = there;
+                parents_[next] = n;
+                front.emplace(there, next);
+            }
+        }
+    }
+
+    // Parents first.
+    void cut_chains() {
+        std::vector<std::pair<std::uint32_t, std::uint32_t>> starts;  // node, chain that ends there
+        for (const std::uint32_t root : root_nodes_) starts.emplace_back(root, kNone);
+        for (std::size_t i = 0; i < starts.size(); ++i) {
+            const auto [start, parent] = starts[i];
+            for (const std::uint32_t child : children_[start]) {
+                Chain chain;
+                chain.parent = parent;
+                chain.nodes = {start, child};
+                while (children_[chain.nodes.back()].size() == 1)
+                    chain.nodes.push_back(children_[chain.nodes.back()].front());
+                chain.length = ways_[chain.nodes.back()] - ways_[start];
+                starts.emplace_back(chain.nodes.back(), static_cast<std::uint32_t>(chains_.size()));
+                chains_.push_back(std::move(chain));
+            }
+        }
+    }
+
+    void fit_bones() {
+        const std::size_t most = options_.max_bones;
+        if (most > 0 && out_.roots.size() > most) {
+            throw UsageError(fmt::format("{} bones are not enough: the skeleton has {} parts", most,
+                                         out_.roots.size()));
+        }
+        double coarser = 1.0;
+        std::size_t count = joint_all(coarser);
+        for (int i = 0; most > 0 && count > most && i < kMostCoarser; ++i)
+            count = joint_all(coarser *= kCoarser);
+        while (most > 0 && count > most) {
+            Chain* shortest = nullptr;
+            for (Chain& chain : chains_) {
+                if (!may_drop(chain)) continue;
+                if (shortest == nullptr || chain.length < shortest->length) shortest = &chain;
+            }
+            if (shortest == nullptr) return;
+            shortest->is_dropped = true;
+            ++out_.dropped_branches;
+            count -= shortest->joints.size() - 1;
+        }
+    }
+
+    // Nothing kept starts at its end, and it is not the last of its root.
+    bool may_drop(const Chain& chain) const {
+        if (chain.is_dropped) return false;
+        const auto number = static_cast<std::uint32_t>(&chain - chains_.data());
+        const auto kept_at = [&](auto is_meant) {
+            return std::count_if(chains_.begin(), chains_.end(), [&](const Chain& other) {
+                return !other.is_dropped && is_meant(other);
+            });
+        };
+        if (kept_at([&](const Chain& other) { return other.parent == number; }) > 0) return false;
+        return chain.parent != kNone || kept_at([&](const Chain& other) {
+                                            return other.nodes.front() == chain.nodes.front();
+                                        }) > 1;
+    }
+
+    std::size_t joint_all(double coarser) {
+        std::size_t bones = root_nodes_.size();  // at most: lone nodes have one each
+        for (const std::uint32_t root : root_nodes_) bones -= children_[root].empty() ? 0 : 1;
+        for (Chain& chain : chains_) {
+            chain.joints = {0};
+            bend(chain, 0, chain.nodes.size() - 1, coarser);
+            bones += chain.joints.size() - 1;
+        }
+        return bones;
+    }
+
+    // Appends the joints after `first` up to `last` (Douglas and Peucker's way of simplifying
+    // lines; then stretches that are too long are split evenly).
+    void bend(Chain& chain, std::size_t first, std::size_t last, double coarser) const {
+        const DVec3& a = at(chain.nodes[first]);
+        const DVec3 chord = at(chain.nodes[last]) - a;
+        std::size_t worst = first;
+        double most = coarser * options_.bend_radii;
+        double thick = 0.0;
+        for (std::size_t i = first; i <= last; ++i) {
+            const std::uint32_t n = chain.nodes[i];
+            thick += radius(n);
+            const double square = glm::dot(chord, chord);
+            const double share =
+                square > 0.0 ? glm::clamp(glm::dot(at(n) - a, chord) / square, 0.0, 1.0) : 0.0;
+            const double off =
+                glm::distance(at(n), a + chord * share) / std::max(radius(n), 1e-300);
+            if (i == first || i == last || off <= most) continue;
+            most = off;
+            worst = i;
+        }
+        if (worst != first) {
+            bend(chain, first, worst, coarser);
+            bend(chain, worst, last, coarser);
+            return;
+        }
+        const double length = ways_[chain.nodes[last]] - ways_[chain.nodes[first]];
+        const double longest =
+            coarser * options_.longest_radii * thick / static_cast<double>(last - first + 1);
+        const auto pieces =
+            longest > 0.0 ? static_cast<std::size_t>(std::ceil(length / longest)) : std::size_t{1};
+        for (std::size_t piece = 1; piece < pieces; ++piece) {
+            const double want = ways_[chain.nodes[first]] +
+                                length * static_cast<double>(piece) / static_cast<double>(pieces);
+            std::size_t i = chain.joints.back() + 1;
+            while (i < last && ways_[chain.nodes[i]] < want) ++i;
+            if (i < last) chain.joints.push_back(i);
+        }
+        chain.joints.push_back(last);
+    }
+
+    // A branch that holds a root, or is cut, has several chains.
+    void name_branches() {
+        const std::vector<Branch> branches = find_branches(graph_);
+        for (std::uint32_t b = 0; b < branches.size(); ++b) {
+            const std::vector<std::uint32_t>& nodes = branches[b].nodes;
+            for (std::size_t i = 1; i < nodes.size(); ++i)
+                branch_of_[std::minmax(nodes[i - 1], nodes[i])] = b;
+        }
+        bones_of_branch_.assign(branches.size(), 0);
+    }
+
+    void place_bones(Chain& chain) {
+        if (chain.is_dropped) return;
+        out_.node_bones.resize(graph_.nodes.size());
+        const std::uint32_t branch = branch_of_.at(std::minmax(chain.nodes[0], chain.nodes[1]));
+        std::uint32_t parent = chain.parent == kNone ? kNone : chains_[chain.parent].last_bone;
+        for (std::size_t k = 1; k < chain.joints.size(); ++k) {
+            const auto bone = static_cast<std::uint32_t>(out_.bones.size());
+            double thick = 0.0;
+            for (std::size_t i = chain.joints[k - 1]; i <= chain.joints[k]; ++i) {
+                out_.node_bones[chain.nodes[i]].push_back(bone);
+                thick += radius(chain.nodes[i]);
+            }
+            const std::uint32_t head = chain.nodes[chain.joints[k - 1]];
+            const std::uint32_t tail = chain.nodes[chain.joints[k]];
+            thick /= static_cast<double>(chain.joints[k] - chain.joints[k - 1] + 1);
+            out_.bones.push_back({fmt::format("branch{}.{}", branch, bones_of_branch_[branch]++),
+                                  parent, roots_[head], at(head), at(tail), thick});
+            parent = bone;
+        }
+        chain.last_bone = parent;
+    }
+
+    void place_lone_nodes() {
+        out_.node_bones.resize(graph_.nodes.size());
+        for (const std::uint32_t root : root_nodes_) {
+            if (!children_[root].empty()) continue;
+            out_.node_bones[root] = {static_cast<std::uint32_t>(out_.bones.size())};
+            out_.bones.push_back({fmt::format("node{}", root), kNone, roots_[root], at(root),
+                                  at(root), radius(root)});
+        }
+    }
+
+    // Along with what is at their start.
+    void place_dropped() {
+        for (const Chain& chain : chains_) {
+            if (!chain.is_dropped) continue;
+            const std::vector<std::uint32_t> hosts = out_.node_bones[chain.nodes.front()];
+            for (std::size_t i = 1; i < chain.nodes.size(); ++i)
+                out_.node_bones[chain.nodes[i]] = hosts;
+        }
+    }
+
+    void note_cuts() {
+        for (const SkeletonGraph::Edge& edge : graph_.edges) {
+            if (parents_[edge.source] == edge.target || parents_[edge.target] == edge.source)
+                continue;
+            out_.cuts.push_back({0.5 * (at(edge.source) + at(edge.target)),
+                                 out_.node_bones[edge.source].front(),
+                                 out_.node_bones[edge.target].front()});
+        }
+    }
+
+    const SkeletonGraph& graph_;
+    const ArmatureOptions& options_;
+    const NodeLinks links_;
+    std::vector<std::uint32_t> parents_;  // of nodes, in the trees
+    std::vector<std::vector<std::uint32_t>> children_;
+    std::vector<std::uint32_t> roots_;  // of nodes: number of their root
+    std::vector<std::uint32_t> root_nodes_;
+    std::vector<double> ways_;  // of nodes: length from their root
+    std::vector<Chain> chains_;
+    std::map<std::pair<std::uint32_t, std::uint32_t>, std::uint32_t> branch_of_;  // of edges
+    std::vector<std::size_t> bones_of_branch_;
+    Armature out_;
+};
+
+}  // namespace
+
+Armature build_armature(const SkeletonGraph& graph, const ArmatureOptions& options) {
+    return ArmatureBuilder(graph, options).build();
+}
+
+}  // namespace zskel

@@ -1,0 +1,50 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "zskel/skeleton/graph.h"
+
+namespace zskel {
+
+/// A straight that turns as one: a branch of a skeleton, or a stretch of one.
+struct Bone {
+    std::string name;              ///< "branch3.0": of `find_branches`, and the number along it
+    std::uint32_t parent = kNone;  ///< at whose tail it starts; kNone: at a root
+    std::uint32_t root = 0;        ///< number of its root
+    DVec3 head{0.0};               ///< where it starts, model space
+    DVec3 tail{0.0};               ///< where it ends; a lone node's bone has no length
+    double radius = 0.0;           ///< mean of the skeleton's along it
+};
+
+/// Where a loop of the skeleton was opened, since bones form trees.
+struct LoopCut {
+    DVec3 position{0.0};
+    std::uint32_t bone = 0;   ///< that ends there, from the one side
+    std::uint32_t other = 0;  ///< and from the other
+};
+
+/// The bones of a skeleton, as trees.
+struct Armature {
+    std::vector<Bone> bones;   ///< parents before their children
+    std::vector<DVec3> roots;  ///< one a component of the skeleton, in order of lowest nodes
+    std::vector<LoopCut> cuts;
+    /// Of every node of the skeleton: the bone that it lies on; at a joint all that meet there.
+    std::vector<std::vector<std::uint32_t>> node_bones;
+    std::size_t dropped_branches = 0;  ///< that got no bone of their own, to keep within the bound
+};
+
+struct ArmatureOptions {
+    double bend_radii = 0.5;     ///< a bone lies no farther than this from its branch, in radii
+    double longest_radii = 5.0;  ///< and is no longer than this
+    std::size_t max_bones = 0;   ///< 0: no bound
+};
+
+/// Turns a skeleton into bones. The root of each component is its thickest junction (its thickest
+/// node where it has none); a loop is opened where the ways from the root round it meet. To keep
+/// within `max_bones` bones are made coarser; then the shortest end branches get none of their own
+/// and move with the bone that they start at.
+/// @throws UsageError when there are more components than `max_bones`.
+Armature build_armature(const SkeletonGraph& graph, const ArmatureOptions& options);
+
+}  // namespace zskel

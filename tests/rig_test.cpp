@@ -1,0 +1,240 @@
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <nlohmann/json.hpp>
+#include <set>
+
+#include "support/extract.h"
+#include "support/shapes.h"
+#include "zskel/core/error.h"
+#include "zskel/io/rig_glb.h"
+#include "zskel/mesh/read_mesh.h"
+
+using namespace zskel;
+
+namespace {
+
+using Weights = std::vector<std::vector<Influence>>;
+
+SkeletonGraph graph_of(const std::vector<DVec3>& positions,
+                       const std::vector<SkeletonGraph::Edge>& edges, double radius = 0.1) {
+    SkeletonGraph graph;
+    for (const DVec3& p : positions) graph.nodes.push_back({p, radius, 0, 0.0});
+    graph.edges = edges;
+    return graph;
+}
+
+// Straight along x, a node every `step`.
+SkeletonGraph line_graph(double from, double to, double step, double radius) {
+    SkeletonGraph graph;
+    for (double x = from; x < to + 0.5 * step; x += step)
+        graph.nodes.push_back({{x, 0, 0}, radius, 0, 0.0});
+    for (std::uint32_t n = 1; n < graph.nodes.size(); ++n) graph.edges.push_back({n - 1, n});
+    return graph;
+}
+
+void check_sound(const Armature& armature) {
+    for (std::size_t b = 0; b < armature.bones.size(); ++b) {
+        const Bone& bone = armature.bones[b];
+        const DVec3 from =
+            bone.parent == kNone ? armature.roots[bone.root] : armature.bones[bone.parent].tail;
+        CHECK(bone.head == from);
+        if (bone.parent != kNone) CHECK(bone.parent < b);
+    }
+    std::set<std::string> names;
+    for (const Bone& bone : armature.bones) names.insert(bone.name);
+    CHECK(names.size() == armature.bones.size());
+    for (const auto& bones : armature.node_bones) CHECK_FALSE(bones.empty());
+}
+
+void check_sound(const Weights& weights, std::size_t bones) {
+    std::size_t wrong = 0;
+    for (const std::vector<Influence>& influences : weights) {
+        float sum = 0.0f;
+        for (const Influence& i : influences) {
+            sum += i.weight;
+            wrong += i.bone < bones && i.weight > 0.0f ? 0 : 1;
+        }
+        wrong +=
+            !influences.empty() && influences.size() <= 4 && std::abs(sum - 1.0f) < 1e-5f ? 0 : 1;
+    }
+    CHECK(wrong == 0);
+}
+
+float weight_of(const std::vector<Influence>& influences, std::uint32_t bone) {
+    for (const Influence& i : influences) {
+        if (i.bone == bone) return i.weight;
+    }
+    return 0.0f;
+}
+
+}  // namespace
+
+TEST_CASE("build_armature: three arms of a Y start at its junction") {
+    const SkeletonGraph y =
+        graph_of({{0, 0, 0}, {1, 0, 0}, {-1, 1, 0}, {-1, -1, 0}}, {{0, 1}, {0, 2}, {0, 3}}, 0.5);
+    const Armature armature = build_armature(y, {});
+    check_sound(armature);
+    REQUIRE(armature.roots.size() == 1);
+    CHECK(armature.roots[0] == DVec3(0.0));
+    CHECK(armature.bones.size() == 3);
+    CHECK(armature.node_bones[0].size() == 3);
+    CHECK(armature.cuts.empty());
+    CHECK(armature.bones[0].name == "branch0.0");
+    CHECK(armature.bones[2].name == "branch2.0");
+}
+
+TEST_CASE("build_armature: bones follow a bend, and are no longer than some radii") {
+    SkeletonGraph bent = line_graph(0.0, 1.0, 0.05, 0.22);
+    const auto corner = static_cast<std::uint32_t>(bent.nodes.size() - 1);
+    for (int i = 1; i <= 20; ++i) {
+        bent.nodes.push_back({{1.0, 0.05 * i, 0}, 0.22, 0, 0.0});
+        const auto n = static_cast<std::uint32_t>(bent.nodes.size() - 1);
+        bent.edges.push_back({n - 1, n});
+    }
+    bent.nodes[0].radius = 0.23;  // the root: its thickest node
+    const Armature armature = build_armature(bent, {});
+    check_sound(armature);
+    REQUIRE(armature.bones.size() == 2);
+    CHECK(armature.bones[0].tail == bent.nodes[corner].position);
+
+    const Armature thin = build_armature(line_graph(0.0, 1.0, 0.01, 0.055), {});
+    check_sound(thin);
+    CHECK(thin.bones.size() == 4);
+    for (const Bone& bone : thin.bones) CHECK(glm::distance(bone.head, bone.tail) <= 0.29);
+}
+
+TEST_CASE("build_armature: a ring is opened opposite its root, and that is said") {
+    std::vector<DVec3> places;
+    std::vector<SkeletonGraph::Edge> edges;
+    for (std::uint32_t i = 0; i < 9; ++i) {
+        const double angle = 2.0 * 3.14159265358979 * i / 9.0;
+        places.emplace_back(std::cos(angle), std::sin(angle), 0.0);
+        if (i > 0) edges.push_back({i - 1, i});
+    }
+    edges.push_back({0, 8});
+    const Armature armature = build_armature(graph_of(places, edges), {});
+    check_sound(armature);
+    REQUIRE(armature.cuts.size() == 1);
+    CHECK(armature.cuts[0].position.x < -0.9);
+    CHECK(armature.cuts[0].bone != armature.cuts[0].other);
+}
+
+TEST_CASE("build_armature: within a bound bones get coarser, then short branches go along") {
+    SkeletonGraph star = line_graph(-1.0, 1.0, 0.1, 0.05);
+    for (int i = 1; i <= 3; ++i) {  // a short branch from its middle
+        star.nodes.push_back({{0.0, 0.1 * i, 0}, 0.05, 0, 0.0});
+        const auto n = static_cast<std::uint32_t>(star.nodes.size() - 1);
+        star.edges.push_back({i == 1 ? 10u : n - 1, n});
+    }
+    ArmatureOptions options;
+    CHECK(build_armature(star, options).bones.size() > 5);
+    options.max_bones = 3;
+    const Armature three = build_armature(star, options);
+    check_sound(three);
+    CHECK(three.bones.size() == 3);
+    CHECK(three.dropped_branches == 0);
+    options.max_bones = 2;
+    const Armature two = build_armature(star, options);
+    check_sound(two);
+    CHECK(two.bones.size() == 2);
+    CHECK(two.dropped_branches == 1);
+
+    SkeletonGraph parts = graph_of({{0, 0, 0}, {5, 0, 0}, {9, 0, 0}}, {});
+    CHECK_THROWS_AS(build_armature(parts, options), UsageError);
+    options.max_bones = 3;
+    const Armature lone = build_armature(parts, options);
+    check_sound(lone);
+    CHECK(lone.roots.size() == 3);
+    CHECK(lone.bones.size() == 3);
+}
+
+TEST_CASE("skin_weights: one bone fades into the next along a tube") {
+    Mesh tube = test::cylinder(0.1, 1.0, 24, 41);
+    for (DVec3& p : tube.positions) p = {p.z, p.y, -p.x};  // its axis along x
+    SkeletonGraph axis = line_graph(-0.5, 0.5, 0.05, 0.1);
+    for (const DVec3& p : tube.positions)
+        axis.vertex_node.push_back(static_cast<std::uint32_t>(std::lround((p.x + 0.5) / 0.05)));
+    const Armature armature = build_armature(axis, {.longest_radii = 6.0});
+    REQUIRE(armature.bones.size() == 2);
+    const Weights weights = skin_weights(tube, axis, armature, {});
+    check_sound(weights, 2);
+    const double middle = armature.bones[0].tail.x;  // the root is at the left
+    for (std::size_t v = 0; v < weights.size(); ++v) {
+        const double off = (tube.positions[v].x - middle) / 0.1;
+        const float weight = weight_of(weights[v], 0);
+        // The closed form on a straight tube: exp(-|x| / (smoothing r)) / 2 on the far side.
+        const double far = 0.5 * std::exp(-std::abs(off) / 0.5);
+        if (std::abs(tube.positions[v].x) > 0.45) continue;  // the caps
+        CHECK(static_cast<double>(weight) == doctest::Approx(off < 0 ? 1 - far : far).epsilon(0.1));
+    }
+}
+
+TEST_CASE("skin_weights: parts that nearly touch do not share, and no vertex is left out") {
+    Mesh two = test::together(test::sphere(0.5), test::moved(test::sphere(0.5), {1.001, 0, 0}));
+    two.positions.emplace_back(5, 0, 0);  // no face
+    SkeletonGraph graph = graph_of({{0, 0, 0}, {1.001, 0, 0}}, {}, 0.5);
+    for (const DVec3& p : two.positions) graph.vertex_node.push_back(p.x < 0.5005 ? 0 : 1);
+    graph.vertex_node.back() = kNone;
+    const Armature armature = build_armature(graph, {});
+    const Weights weights = skin_weights(two, graph, armature, {});
+    check_sound(weights, 2);
+    for (std::size_t v = 0; v < weights.size(); ++v) {
+        REQUIRE(weights[v].size() == 1);
+        CHECK(weights[v][0].bone == (two.positions[v].x < 0.5005 ? 0 : 1));
+    }
+    graph.vertex_node.pop_back();
+    CHECK_THROWS_AS(skin_weights(two, graph, armature, {}), InputError);
+}
+
+TEST_CASE("skin_weights: no vertex of the horse follows the tips of two limbs") {
+    const Mesh horse = read_mesh(ZSKEL_MODELS "/horse.obj");
+    const ExtractResult result = test::extract(horse);
+    const Armature armature = build_armature(result.graph, {});
+    check_sound(armature);
+    const Weights weights = skin_weights(horse, result.graph, armature, {});
+    check_sound(weights, armature.bones.size());
+    std::vector<bool> is_tip(armature.bones.size(), true);
+    for (const Bone& bone : armature.bones) {
+        if (bone.parent != kNone) is_tip[bone.parent] = false;
+    }
+    CHECK(std::count(is_tip.begin(), is_tip.end(), true) == 8);  // as many as the horse's ends
+    std::vector<std::size_t> followers(armature.bones.size(), 0);
+    std::size_t shared = 0;
+    for (const std::vector<Influence>& influences : weights) {
+        std::size_t tips = 0;
+        for (const Influence& i : influences) {
+            tips += is_tip[i.bone] ? 1 : 0;
+            ++followers[i.bone];
+        }
+        shared += tips > 1 ? 1 : 0;
+    }
+    CHECK(shared == 0);
+    CHECK(*std::min_element(followers.begin(), followers.end()) > 0);
+}
+
+TEST_CASE("write_rig_glb: mesh, joints and weights of a tube") {
+    const Mesh tube = test::cylinder(0.1, 1.0, 12, 9);
+    SkeletonGraph axis = graph_of({{0, 0, -0.4}, {0, 0, 0}, {0, 0, 0.4}}, {{0, 1}, {1, 2}}, 0.1);
+    for (const DVec3& p : tube.positions)
+        axis.vertex_node.push_back(p.z < -0.2 ? 0 : p.z < 0.2 ? 1 : 2);
+    const Armature armature = build_armature(axis, {});
+    const std::string bytes =
+        write_rig_glb(tube, armature, skin_weights(tube, axis, armature, {}), "a test");
+    std::uint32_t size = 0;
+    std::memcpy(&size, bytes.data() + 12, 4);
+    const auto file = nlohmann::json::parse(bytes.substr(20, size));
+    CHECK(file["meshes"].size() == 1);
+    const auto& skin = file["skins"][0];
+    // A root at one end, a chain of bones, and its end.
+    const std::size_t joints = skin["joints"].size();
+    CHECK(joints == 1 + armature.bones.size() + 1);
+    CHECK(file["accessors"][skin["inverseBindMatrices"].get<std::size_t>()]["count"] == joints);
+    const auto& attributes = file["meshes"][0]["primitives"][0]["attributes"];
+    for (const char* name : {"POSITION", "NORMAL", "JOINTS_0", "WEIGHTS_0"}) {
+        const auto accessor = attributes[name].get<std::size_t>();
+        CHECK(file["accessors"][accessor]["count"] == tube.positions.size());
+    }
+}
