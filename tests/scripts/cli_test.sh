@@ -78,6 +78,25 @@ case_usage() {
     only_files . cube.obj link.obj out err
 }
 
+case_rig() {
+    local quick=(--backend ray --face-px 6)
+    run 0 rig cube.obj "${quick[@]}" -o a.glb
+    [[ $(head -c 4 a.glb) == glTF ]] || fail "no GLB"
+    run 0 rig cube.obj "${quick[@]}" -o -
+    [[ $(head -c 4 out) == glTF ]] || fail "no GLB on standard output"
+    refused 2 '--output' rig cube.obj
+    refused 2 'cube.obj' rig cube.obj -o ./cube.obj
+    refused 2 '--max-bones' rig cube.obj -o b.glb --max-bones -1
+    refused 2 '--smoothing' rig cube.obj -o b.glb --smoothing 0
+    refused 3 'none.obj' rig none.obj -o b.glb
+    refused 5 'nowhere' rig cube.obj -o nowhere/b.glb
+    awk '{ print } $1 == "v" { ++n; place[n] = "v " $2 + 9 " " $3 " " $4 } $1 == "f" { face[++m] = $2 " " $3 " " $4 }
+         END { for (i = 1; i <= n; ++i) print place[i]
+               for (i = 1; i <= m; ++i) { split(face[i], c, " "); print "f", c[1] + n, c[2] + n, c[3] + n } }' cube.obj >two.obj
+    refused 2 '2 parts' rig two.obj "${quick[@]}" --max-bones 1 -o b.glb
+    [[ ! -e b.glb ]] || fail "a file is there"
+}
+
 case_help() {
     local command
     run 0 --version
@@ -86,7 +105,7 @@ case_help() {
     grep -qF 'Exit codes:' out || fail "the exit codes are not listed"
     local commands
     commands=$(sed -n '/^Subcommands:/,/^$/s/^  \([a-z]\+\) .*/\1/p' out)
-    for command in extract convert check compare doctor; do
+    for command in extract convert rig check compare doctor; do
         grep -qx "$command" <<<"$commands" || fail "no subcommand $command"
     done
     for command in $commands; do

@@ -1,0 +1,33 @@
+#!/usr/bin/env bash
+# glb_test.sh PROGRAM MODELS_DIR: every GLB and glTF file that the program writes, by Khronos' validator. Without it the
+# test is skipped, or fails if ZSKEL_REQUIRE_READERS=1.
+set -euo pipefail
+zskel=$(readlink -f "$1")
+models=$(readlink -f "$2")
+here=$(dirname "$(readlink -f "$0")")
+work=$(mktemp -d)
+trap 'rm -rf "$work"' EXIT
+cd "$work"
+
+# A limb tree, a ring, a lone node, two parts, holes.
+awk '{ print } $1 == "v" { ++n; place[n] = "v " $2 + 9 " " $3 " " $4 } $1 == "f" { face[++m] = $2 " " $3 " " $4 }
+     END { for (i = 1; i <= n; ++i) print place[i]
+           for (i = 1; i <= m; ++i) { split(face[i], c, " "); print "f", c[1] + n, c[2] + n, c[3] + n } }' \
+    "$models/cube_coarse.obj" >two.obj
+for model in "$models"/{horse,torus,double_torus,cube_coarse,vessels_open}.obj two.obj; do
+    "$zskel" -q rig "$model" --backend ray --face-px 6 -o "rig_$(basename "$model" .obj).glb"
+done
+"$zskel" -q rig "$models/hand.obj" --backend ray --face-px 6 --max-bones 6 -o few.glb
+"$zskel" -q extract "$models/hand.obj" --backend ray --face-px 6 -o lines.json
+for form in lines.glb lines.gltf; do "$zskel" -q convert lines.json -o "$form"; done
+"$zskel" -q convert lines.json --tubes -o tubes.glb
+
+code=0
+if command -v node >/dev/null; then
+    node "$here/../node/validate_glb.js" ./*.glb ./*.gltf || code=$?
+else
+    echo "node is not installed (tools/setup --test)"
+    code=77
+fi
+if ((code == 77)) && [[ ${ZSKEL_REQUIRE_READERS:-0} == 1 ]]; then code=1; fi
+exit "$code"
