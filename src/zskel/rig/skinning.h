@@ -1,0 +1,35 @@
+#pragma once
+
+#include <vector>
+
+#include "zskel/rig/pose.h"
+#include "zskel/rig/weights.h"
+
+namespace zskel {
+
+/// How a vertex between bones follows them.
+enum class Skinning {
+    DualQuaternion,  ///< keeps the girth where a limb bends or twists
+    Linear,          ///< the mean of the places; what most engines do
+};
+
+/// The vertices of a mesh in a pose.
+/// @see Kavan et al. 2007 (dual quaternion skinning)
+std::vector<DVec3> deform(const Mesh& mesh, const Armature& armature,
+                          const std::vector<std::vector<Influence>>& weights,
+                          const std::vector<BoneMotion>& motions, Skinning skinning);
+
+/// What a deformation did to a mesh.
+struct DeformMeasures {
+    double volume_change = 0.0;      ///< share of the volume, signed; 0 where there is none
+    std::size_t flipped_faces = 0;   ///< that look away from where their bones turned them
+    double edge_stretch_median = 1.0;  ///< length over the length at rest
+    double edge_stretch_p99 = 1.0;     ///< the larger of that and its inverse, at 99 % of the edges
+    double edge_stretch_worst = 1.0;
+    double farthest = 0.0;           ///< that a vertex moved, in diagonals of the bounding box
+};
+DeformMeasures measure_deformation(const Mesh& mesh, const std::vector<DVec3>& deformed,
+                                   const std::vector<std::vector<Influence>>& weights,
+                                   const std::vector<BoneMotion>& motions);
+
+}  // namespace zskel
