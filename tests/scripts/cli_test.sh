@@ -97,6 +97,30 @@ case_rig() {
     [[ ! -e b.glb ]] || fail "a file is there"
 }
 
+case_deform() {
+    local quick=(--backend ray --face-px 6)
+    cp "$models/y.obj" y.obj
+    echo '{"moves": [{"branch": 0, "bend": 60, "axis": [0, 0, 1]}]}' >bend.json
+    echo '{"moves": []}' >rest.json
+    run 0 deform y.obj "${quick[@]}" --pose rest.json -o rest.obj
+    grep -q '^volume *+0.000 %$' err || fail "a rest pose changes the volume: $(cat err)"
+    run 0 deform y.obj "${quick[@]}" --pose bend.json -o bent.obj
+    cmp -s <(grep '^f' rest.obj) <(grep '^f' bent.obj) || fail "other faces"
+    cmp -s rest.obj bent.obj && fail "nothing moved"
+    run 0 check bent.obj
+    run 0 -q deform y.obj "${quick[@]}" --pose bend.json --skinning linear -o -
+    [[ ! -s err ]] || fail "not quiet"
+    grep -q '^v ' out || fail "no OBJ on standard output"
+    refused 2 '--pose' deform y.obj -o b.obj
+    refused 2 'bend.json' deform y.obj --pose bend.json -o bend.json
+    refused 2 'y.obj' deform y.obj --pose bend.json -o y.obj
+    refused 2 '--skinning' deform y.obj --pose bend.json -o b.obj --skinning nosuch
+    refused 3 'none.json' deform y.obj --pose none.json -o b.obj
+    echo '{"moves": [{"branch": 99, "twist": 60}]}' >bad.json
+    refused 3 'bad.json: moves[0]: branch' deform y.obj "${quick[@]}" --pose bad.json -o b.obj
+    [[ ! -e b.obj ]] || fail "a file is there"
+}
+
 case_help() {
     local command
     run 0 --version
@@ -105,7 +129,7 @@ case_help() {
     grep -qF 'Exit codes:' out || fail "the exit codes are not listed"
     local commands
     commands=$(sed -n '/^Subcommands:/,/^$/s/^  \([a-z]\+\) .*/\1/p' out)
-    for command in extract convert rig check compare doctor; do
+    for command in extract convert rig deform check compare doctor; do
         grep -qx "$command" <<<"$commands" || fail "no subcommand $command"
     done
     for command in $commands; do

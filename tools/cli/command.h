@@ -23,6 +23,7 @@ using Run = std::function<ExitCode()>;
 void add_check_command(CLI::App& app, const Common& common, Run& run);
 void add_compare_command(CLI::App& app, const Common& common, Run& run);
 void add_convert_command(CLI::App& app, const Common& common, Run& run);
+void add_deform_command(CLI::App& app, const Common& common, Run& run);
 void add_depth_command(CLI::App& app, const Common& common, Run& run);
 void add_doctor_command(CLI::App& app, const Common& common, Run& run);
 void add_extract_command(CLI::App& app, const Common& common, Run& run);

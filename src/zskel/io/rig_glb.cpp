@@ -14,27 +14,24 @@ namespace {
 
 using Json = GltfBuilder::Json;
 
-// Joints in the file's order: roots, bones, ends; each with what it hangs on.
+// Joints in the file's order: bones, then ends; each with what it hangs on.
 struct Joint {
     std::string name;
     DVec3 position{0.0};
-    std::size_t parent = 0;  // its own number: none
+    std::uint32_t parent = kNone;
 };
 
 std::vector<Joint> joints_of(const Armature& armature) {
     std::vector<Joint> joints;
-    const std::size_t roots = armature.roots.size();
-    for (std::size_t r = 0; r < roots; ++r)
-        joints.push_back({roots == 1 ? "root" : fmt::format("root{}", r), armature.roots[r], r});
     std::vector<bool> is_parent(armature.bones.size(), false);
     for (const Bone& bone : armature.bones) {
-        joints.push_back(
-            {bone.name, bone.head, bone.parent == kNone ? bone.root : roots + bone.parent});
+        joints.push_back({bone.name, bone.head, bone.parent});
         if (bone.parent != kNone) is_parent[bone.parent] = true;
     }
-    for (std::size_t b = 0; b < armature.bones.size(); ++b) {
-        if (!is_parent[b])
-            joints.push_back({armature.bones[b].name + "_end", armature.bones[b].tail, roots + b});
+    for (std::uint32_t b = 0; b < armature.bones.size(); ++b) {
+        const Bone& bone = armature.bones[b];
+        if (!is_parent[b] && bone.parent != kNone)
+            joints.push_back({bone.name + "_end", bone.tail, b});
     }
     return joints;
 }
@@ -63,7 +60,7 @@ Json node_tree(const std::vector<Joint>& joints, std::size_t first_joint) {
     std::vector<Json> children(joints.size(), Json::array());
     for (std::size_t j = 0; j < joints.size(); ++j) {
         const Joint& joint = joints[j];
-        const bool is_root = joint.parent == j;
+        const bool is_root = joint.parent == kNone;
         if (!is_root) children[joint.parent].push_back(first_joint + j);
         const DVec3 from = is_root ? DVec3(0.0) : joints[joint.parent].position;
         nodes.push_back({{"name", joint.name}, {"translation", vector_of(joint.position - from)}});
@@ -86,13 +83,12 @@ std::string write_rig_glb(const Mesh& mesh, const Armature& armature,
                         "fewer bones are needed",
                         mesh.name, joints.size()));
     }
-    const std::size_t first_bone = armature.roots.size();
     std::vector<std::array<std::uint16_t, 4>> vertex_joints(weights.size());
     std::vector<std::array<float, 4>> vertex_weights(weights.size());
     for (std::size_t v = 0; v < weights.size(); ++v) {
         const std::size_t count = std::min<std::size_t>(weights[v].size(), 4);
         for (std::size_t k = 0; k < count; ++k) {
-            vertex_joints[v][k] = static_cast<std::uint16_t>(first_bone + weights[v][k].bone);
+            vertex_joints[v][k] = static_cast<std::uint16_t>(weights[v][k].bone);
             vertex_weights[v][k] = weights[v][k].weight;
         }
     }
@@ -113,7 +109,9 @@ std::string write_rig_glb(const Mesh& mesh, const Armature& armature,
     constexpr std::size_t kFirstJoint = 2;
     Json nodes = Json::array({{{"name", "model"}, {"mesh", 0}, {"skin", 0}}});
     Json hangers = Json::array();
-    for (std::size_t r = 0; r < armature.roots.size(); ++r) hangers.push_back(kFirstJoint + r);
+    for (std::size_t b = 0; b < armature.bones.size(); ++b) {
+        if (armature.bones[b].parent == kNone) hangers.push_back(kFirstJoint + b);
+    }
     nodes.push_back({{"name", "armature"}, {"children", hangers}});
     for (Json& node : node_tree(joints, kFirstJoint)) nodes.push_back(std::move(node));
     Json numbers = Json::array();

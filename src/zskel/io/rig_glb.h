@@ -7,9 +7,9 @@
 namespace zskel {
 
 /// A mesh bound to bones, as a binary glTF 2.0 file: full resolution, the model's own scale and
-/// axes, vertices in their order. One joint a bone, at its head and unturned; one for each root,
-/// and one more at the tail of bones at which none starts ("branch3.1_end"), so that viewers show
-/// how long those are. Positions are 32-bit, as the format asks.
+/// axes, vertices in their order. One joint a bone, at its head and unturned, and one more at the
+/// tail of bones on which none hangs ("branch3.1_end"), so that viewers show how long those are.
+/// Positions are 32-bit, as the format asks.
 /// @param weights  as `skin_weights` gives them; of each vertex the first four count.
 /// @param origin   says what made the file.
 /// @throws InputError when there are more joints than the format can number (65,535).

@@ -24,8 +24,11 @@ struct Chain {
     std::uint32_t parent = kNone;  // chain
     double length = 0.0;
     bool is_dropped = false;
-    std::vector<std::size_t> joints;  // places in `nodes` where bones meet, its two ends among them
-    std::uint32_t last_bone = kNone;
+    std::size_t out = 0;              // the first place in `nodes` outside its junction's ball
+    std::vector<std::size_t> joints;  // places from there on where bones start and end; may be none
+    std::uint32_t last_bone = kNone;  // what hangs on its end hangs on this
+
+    std::size_t bone_count() const { return joints.empty() ? 0 : joints.size() - 1; }
 };
 
 class ArmatureBuilder {
@@ -35,17 +38,17 @@ class ArmatureBuilder {
           options_(options),
           links_(node_links(graph)),
           parents_(graph.nodes.size(), kNone),
-          children_(graph.nodes.size()),
-          roots_(graph.nodes.size(), kNone) {}
+          children_(graph.nodes.size()) {
+        out_.node_bones.resize(graph.nodes.size());
+    }
 
     Armature build() {
         grow_trees();
         cut_chains();
         fit_bones();
         name_branches();
+        place_hubs();
         for (Chain& chain : chains_) place_bones(chain);
-        place_lone_nodes();
-        place_dropped();
         note_cuts();
         return std::move(out_);
     }
@@ -56,27 +59,25 @@ class ArmatureBuilder {
 
     // The shortest ways from the root of each component.
     void grow_trees() {
+        std::vector<bool> is_seen(links_.size(), false);
         for (std::uint32_t first = 0; first < links_.size(); ++first) {
-            if (roots_[first] != kNone) continue;
-            const auto number = static_cast<std::uint32_t>(out_.roots.size());
+            if (is_seen[first]) continue;
             std::vector<std::uint32_t> part{first};
-            roots_[first] = number;
+            is_seen[first] = true;
             for (std::size_t i = 0; i < part.size(); ++i) {
                 for (const std::uint32_t next : links_[part[i]]) {
-                    if (roots_[next] != kNone) continue;
-                    roots_[next] = number;
+                    if (is_seen[next]) continue;
+                    is_seen[next] = true;
                     part.push_back(next);
                 }
             }
-            const std::uint32_t root =
+            roots_.push_back(
                 *std::max_element(part.begin(), part.end(), [&](std::uint32_t a, std::uint32_t b) {
                     const bool a_joins = links_[a].size() > 2;
                     const bool b_joins = links_[b].size() > 2;
                     return a_joins != b_joins ? b_joins : radius(a) < radius(b);
-                });
-            out_.roots.push_back(at(root));
-            root_nodes_.push_back(root);
-            grow_tree(root);
+                }));
+            grow_tree(roots_.back());
         }
         for (std::uint32_t n = 0; n < parents_.size(); ++n) {
             if (parents_[n] != kNone) children_[parents_[n]].push_back(n);
@@ -107,7 +108,7 @@ class ArmatureBuilder {
     // Parents first.
     void cut_chains() {
         std::vector<std::pair<std::uint32_t, std::uint32_t>> starts;  // node, chain that ends there
-        for (const std::uint32_t root : root_nodes_) starts.emplace_back(root, kNone);
+        for (const std::uint32_t root : roots_) starts.emplace_back(root, kNone);
         for (std::size_t i = 0; i < starts.size(); ++i) {
             const auto [start, parent] = starts[i];
             for (const std::uint32_t child : children_[start]) {
@@ -116,6 +117,12 @@ class ArmatureBuilder {
                 chain.nodes = {start, child};
                 while (children_[chain.nodes.back()].size() == 1)
                     chain.nodes.push_back(children_[chain.nodes.back()].front());
+                const auto is_out = [&](std::uint32_t n) {
+                    return glm::distance(at(n), at(start)) >= radius(start);
+                };
+                chain.out = static_cast<std::size_t>(
+                    std::find_if(chain.nodes.begin(), chain.nodes.end(), is_out) -
+                    chain.nodes.begin());
                 chain.length = ways_[chain.nodes.back()] - ways_[start];
                 starts.emplace_back(chain.nodes.back(), static_cast<std::uint32_t>(chains_.size()));
                 chains_.push_back(std::move(chain));
@@ -125,9 +132,9 @@ class ArmatureBuilder {
 
     void fit_bones() {
         const std::size_t most = options_.max_bones;
-        if (most > 0 && out_.roots.size() > most) {
+        if (most > 0 && roots_.size() > most) {
             throw UsageError(fmt::format("{} bones are not enough: the skeleton has {} parts", most,
-                                         out_.roots.size()));
+                                         roots_.size()));
         }
         double coarser = 1.0;
         std::size_t count = joint_all(coarser);
@@ -142,32 +149,27 @@ class ArmatureBuilder {
             if (shortest == nullptr) return;
             shortest->is_dropped = true;
             ++out_.dropped_branches;
-            count -= shortest->joints.size() - 1;
+            count -= shortest->bone_count();
         }
     }
 
-    // Nothing kept starts at its end, and it is not the last of its root.
+    // Nothing kept starts at its end.
     bool may_drop(const Chain& chain) const {
-        if (chain.is_dropped) return false;
         const auto number = static_cast<std::uint32_t>(&chain - chains_.data());
-        const auto kept_at = [&](auto is_meant) {
-            return std::count_if(chains_.begin(), chains_.end(), [&](const Chain& other) {
-                return !other.is_dropped && is_meant(other);
-            });
-        };
-        if (kept_at([&](const Chain& other) { return other.parent == number; }) > 0) return false;
-        return chain.parent != kNone || kept_at([&](const Chain& other) {
-                                            return other.nodes.front() == chain.nodes.front();
-                                        }) > 1;
+        return !chain.is_dropped &&
+               std::none_of(chains_.begin(), chains_.end(), [&](const Chain& other) {
+                   return !other.is_dropped && other.parent == number;
+               });
     }
 
     std::size_t joint_all(double coarser) {
-        std::size_t bones = root_nodes_.size();  // at most: lone nodes have one each
-        for (const std::uint32_t root : root_nodes_) bones -= children_[root].empty() ? 0 : 1;
+        std::size_t bones = roots_.size();
         for (Chain& chain : chains_) {
-            chain.joints = {0};
-            bend(chain, 0, chain.nodes.size() - 1, coarser);
-            bones += chain.joints.size() - 1;
+            chain.joints.clear();
+            if (chain.out + 1 >= chain.nodes.size()) continue;
+            chain.joints.push_back(chain.out);
+            bend(chain, chain.out, chain.nodes.size() - 1, coarser);
+            bones += chain.bone_count();
         }
         return bones;
     }
@@ -223,45 +225,37 @@ class ArmatureBuilder {
         bones_of_branch_.assign(branches.size(), 0);
     }
 
+    void place_hubs() {
+        for (std::size_t r = 0; r < roots_.size(); ++r) {
+            out_.node_bones[roots_[r]] = {static_cast<std::uint32_t>(r)};
+            const DVec3& place = at(roots_[r]);
+            out_.bones.push_back({roots_.size() == 1 ? "root" : fmt::format("root{}", r), kNone,
+                                  place, place, radius(roots_[r])});
+        }
+    }
+
+    // What hangs on the end of a chain without bones hangs on what the chain hangs on.
     void place_bones(Chain& chain) {
-        if (chain.is_dropped) return;
-        out_.node_bones.resize(graph_.nodes.size());
-        const std::uint32_t branch = branch_of_.at(std::minmax(chain.nodes[0], chain.nodes[1]));
-        std::uint32_t parent = chain.parent == kNone ? kNone : chains_[chain.parent].last_bone;
+        const std::vector<std::uint32_t>& nodes = chain.nodes;
+        chain.last_bone = chain.parent == kNone ? out_.node_bones[nodes.front()].front()
+                                                : chains_[chain.parent].last_bone;
+        const bool has_bones = !chain.is_dropped && !chain.joints.empty();
+        const std::size_t held = has_bones ? chain.out + 1 : nodes.size();
+        for (std::size_t i = 1; i < held; ++i) out_.node_bones[nodes[i]] = {chain.last_bone};
+        if (!has_bones) return;
+        const std::uint32_t branch = branch_of_.at(std::minmax(nodes[0], nodes[1]));
         for (std::size_t k = 1; k < chain.joints.size(); ++k) {
             const auto bone = static_cast<std::uint32_t>(out_.bones.size());
             double thick = 0.0;
             for (std::size_t i = chain.joints[k - 1]; i <= chain.joints[k]; ++i) {
-                out_.node_bones[chain.nodes[i]].push_back(bone);
-                thick += radius(chain.nodes[i]);
+                out_.node_bones[nodes[i]].push_back(bone);
+                thick += radius(nodes[i]);
             }
-            const std::uint32_t head = chain.nodes[chain.joints[k - 1]];
-            const std::uint32_t tail = chain.nodes[chain.joints[k]];
             thick /= static_cast<double>(chain.joints[k] - chain.joints[k - 1] + 1);
             out_.bones.push_back({fmt::format("branch{}.{}", branch, bones_of_branch_[branch]++),
-                                  parent, roots_[head], at(head), at(tail), thick});
-            parent = bone;
-        }
-        chain.last_bone = parent;
-    }
-
-    void place_lone_nodes() {
-        out_.node_bones.resize(graph_.nodes.size());
-        for (const std::uint32_t root : root_nodes_) {
-            if (!children_[root].empty()) continue;
-            out_.node_bones[root] = {static_cast<std::uint32_t>(out_.bones.size())};
-            out_.bones.push_back({fmt::format("node{}", root), kNone, roots_[root], at(root),
-                                  at(root), radius(root)});
-        }
-    }
-
-    // Along with what is at their start.
-    void place_dropped() {
-        for (const Chain& chain : chains_) {
-            if (!chain.is_dropped) continue;
-            const std::vector<std::uint32_t> hosts = out_.node_bones[chain.nodes.front()];
-            for (std::size_t i = 1; i < chain.nodes.size(); ++i)
-                out_.node_bones[chain.nodes[i]] = hosts;
+                                  chain.last_bone, at(nodes[chain.joints[k - 1]]),
+                                  at(nodes[chain.joints[k]]), thick});
+            chain.last_bone = bone;
         }
     }
 
@@ -280,9 +274,8 @@ class ArmatureBuilder {
     const NodeLinks links_;
     std::vector<std::uint32_t> parents_;  // of nodes, in the trees
     std::vector<std::vector<std::uint32_t>> children_;
-    std::vector<std::uint32_t> roots_;  // of nodes: number of their root
-    std::vector<std::uint32_t> root_nodes_;
-    std::vector<double> ways_;  // of nodes: length from their root
+    std::vector<std::uint32_t> roots_;  // nodes, one a component
+    std::vector<double> ways_;          // of nodes: length from their root
     std::vector<Chain> chains_;
     std::map<std::pair<std::uint32_t, std::uint32_t>, std::uint32_t> branch_of_;  // of edges
     std::vector<std::size_t> bones_of_branch_;

@@ -7,13 +7,13 @@
 
 namespace zskel {
 
-/// A straight that turns as one: a branch of a skeleton, or a stretch of one.
+/// What turns as one: a straight along a branch of a skeleton, or the hub at the root of one.
 struct Bone {
-    std::string name;              ///< "branch3.0": of `find_branches`, and the number along it
-    std::uint32_t parent = kNone;  ///< at whose tail it starts; kNone: at a root
-    std::uint32_t root = 0;        ///< number of its root
+    std::string name;              ///< "branch3.0": of `find_branches`, and the number along it;
+                                   ///< "root" for a hub, with its number where there are several
+    std::uint32_t parent = kNone;  ///< that it hangs on; kNone: a hub
     DVec3 head{0.0};               ///< where it starts, model space
-    DVec3 tail{0.0};               ///< where it ends; a lone node's bone has no length
+    DVec3 tail{0.0};               ///< where it ends; a hub has no length
     double radius = 0.0;           ///< mean of the skeleton's along it
 };
 
@@ -26,8 +26,8 @@ struct LoopCut {
 
 /// The bones of a skeleton, as trees.
 struct Armature {
-    std::vector<Bone> bones;   ///< parents before their children
-    std::vector<DVec3> roots;  ///< one a component of the skeleton, in order of lowest nodes
+    std::vector<Bone> bones;  ///< parents before their children; hubs first, one a component of
+                              ///< the skeleton, in order of lowest nodes
     std::vector<LoopCut> cuts;
     /// Of every node of the skeleton: the bone that it lies on; at a joint all that meet there.
     std::vector<std::vector<std::uint32_t>> node_bones;
@@ -41,9 +41,10 @@ struct ArmatureOptions {
 };
 
 /// Turns a skeleton into bones. The root of each component is its thickest junction (its thickest
-/// node where it has none); a loop is opened where the ways from the root round it meet. To keep
-/// within `max_bones` bones are made coarser; then the shortest end branches get none of their own
-/// and move with the bone that they start at.
+/// node where it has none); a loop is opened where the ways from the root round it meet. The first
+/// bone of a branch starts where the branch leaves the ball at its junction, as a hip lies off the
+/// spine: what is within the ball moves with what the branch hangs on. To keep within `max_bones`
+/// bones are made coarser; then the shortest end branches get none of their own, and move so too.
 /// @throws UsageError when there are more components than `max_bones`.
 Armature build_armature(const SkeletonGraph& graph, const ArmatureOptions& options);
 

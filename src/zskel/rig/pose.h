@@ -31,10 +31,10 @@ Pose read_pose(std::string_view bytes, const std::string& name, const Armature& 
 
 /// Where a bone goes: stretched along itself first, then moved as a rigid body.
 struct BoneMotion {
-    DVec3 shift{0.0};       ///< of its head, by what stretches before it
-    double stretch = 1.0;   ///< along itself
+    DVec3 shift{0.0};      ///< of its head, by what stretches before it
+    double stretch = 1.0;  ///< along itself
     glm::dquat turn{1, 0, 0, 0};
-    DVec3 move{0.0};        ///< stretched p goes to turn * p + move
+    DVec3 move{0.0};  ///< stretched p goes to turn * p + move
 };
 
 /// Of every bone, with all that it hangs on.

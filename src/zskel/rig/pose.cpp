@@ -1,0 +1,160 @@
+#include "zskel/rig/pose.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <nlohmann/json.hpp>
+
+#include "zskel/core/error.h"
+#include "zskel/io/json_place.h"
+
+namespace zskel {
+namespace {
+
+constexpr std::array<const char*, 3> kTargets = {"branch", "bone", "near"};
+constexpr std::array<const char*, 5> kDone = {"turn", "bend", "twist", "stretch", "axis"};
+
+DVec3 vector_at(const JsonPlace& place) {
+    if (place.array_size() != 3) place.fail("three numbers");
+    DVec3 out;
+    for (int axis = 0; axis < 3; ++axis)
+        out[axis] = place.at(static_cast<std::size_t>(axis)).number();
+    return out;
+}
+
+std::string branch_of(const Bone& bone) {
+    return bone.name.substr(0, bone.name.rfind('.'));
+}
+
+std::vector<std::uint32_t> bones_of_branch(const Armature& armature, const std::string& branch) {
+    std::vector<std::uint32_t> out;
+    for (std::uint32_t b = 0; b < armature.bones.size(); ++b) {
+        if (branch_of(armature.bones[b]) == branch) out.push_back(b);
+    }
+    return out;
+}
+
+std::uint32_t bone_nearest_to(const Armature& armature, const DVec3& point) {
+    const auto away = [&](const Bone& bone) {
+        // Hubs are meant by their names only.
+        if (bone.parent == kNone) return std::numeric_limits<double>::infinity();
+        const DVec3 along = bone.tail - bone.head;
+        const double square = glm::dot(along, along);
+        const double share =
+            square > 0.0 ? glm::clamp(glm::dot(point - bone.head, along) / square, 0.0, 1.0) : 0.0;
+        return glm::distance(point, bone.head + along * share);
+    };
+    const auto nearest =
+        std::min_element(armature.bones.begin(), armature.bones.end(),
+                         [&](const Bone& a, const Bone& b) { return away(a) < away(b); });
+    return static_cast<std::uint32_t>(nearest - armature.bones.begin());
+}
+
+std::vector<std::uint32_t> bones_meant(const JsonPlace& entry, const Armature& armature) {
+    if (entry.has("branch")) {
+        const JsonPlace branch = entry.at("branch");
+        auto bones = bones_of_branch(armature, fmt::format("branch{}", branch.count()));
+        if (bones.empty()) branch.fail("the number of a branch with bones");
+        return bones;
+    }
+    if (entry.has("bone")) {
+        const JsonPlace name = entry.at("bone");
+        for (std::uint32_t b = 0; b < armature.bones.size(); ++b) {
+            if (name.value() == armature.bones[b].name) return {b};
+        }
+        name.fail("the name of a bone");
+    }
+    const std::uint32_t near = bone_nearest_to(armature, vector_at(entry.at("near")));
+    return bones_of_branch(armature, branch_of(armature.bones[near]));
+}
+
+double radians_at(const JsonPlace& entry, const char* key) {
+    return entry.has(key) ? glm::radians(entry.at(key).number()) : 0.0;
+}
+
+Move read_move(const JsonPlace& entry, const Armature& armature) {
+    std::size_t targets = 0;
+    for (const char* key : kTargets) targets += entry.has(key) ? 1 : 0;
+    if (targets != 1) entry.fail("a move with one of branch, bone and near");
+    for (const auto& item : entry.value().items()) {
+        const auto is_key = [&](const char* known) { return item.key() == known; };
+        if (std::none_of(kTargets.begin(), kTargets.end(), is_key) &&
+            std::none_of(kDone.begin(), kDone.end(), is_key))
+            entry.fail("a move: it knows turn, bend, twist, stretch and axis, not " +
+                       zskel::quoted(item.key()));
+    }
+    Move move;
+    move.bones = bones_meant(entry, armature);
+    move.turn = radians_at(entry, "turn");
+    move.bend = radians_at(entry, "bend");
+    move.twist = radians_at(entry, "twist");
+    if (entry.has("stretch")) {
+        move.stretch = entry.at("stretch").number();
+        if (!(move.stretch > 0.0)) entry.at("stretch").fail("above 0");
+    }
+    if (entry.has("turn") || entry.has("bend")) {
+        const JsonPlace axis = entry.at("axis");
+        move.axis = vector_at(axis);
+        if (!(glm::length(move.axis) > 0.0)) axis.fail("a direction");
+        move.axis = glm::normalize(move.axis);
+    }
+    return move;
+}
+
+}  // namespace
+
+Pose read_pose(std::string_view bytes, const std::string& name, const Armature& armature) try {
+    const auto data = nlohmann::json::parse(bytes);
+    const JsonPlace moves = JsonPlace(data, name).at("moves");
+    Pose pose;
+    for (std::size_t i = 0; i < moves.array_size(); ++i)
+        pose.push_back(read_move(moves.at(i), armature));
+    return pose;
+} catch (const nlohmann::json::exception& error) {
+    throw InputError(fmt::format("{}: no JSON: {}", name, error.what()));
+}
+
+std::vector<BoneMotion> bone_motions(const Armature& armature, const Pose& pose) {
+    const std::size_t count = armature.bones.size();
+    std::vector<BoneMotion> motions(count);
+    std::vector<glm::dquat> own(count, glm::dquat(1, 0, 0, 0));
+    for (const Move& move : pose) {
+        const double share = 1.0 / static_cast<double>(move.bones.size());
+        for (std::size_t i = 0; i < move.bones.size(); ++i) {
+            const std::uint32_t b = move.bones[i];
+            const Bone& bone = armature.bones[b];
+            motions[b].stretch *= move.stretch;
+            const double about_axis = (i == 0 ? move.turn : 0.0) + move.bend * share;
+            if (about_axis != 0.0) own[b] = own[b] * glm::angleAxis(about_axis, move.axis);
+            const DVec3 along = bone.tail - bone.head;
+            if (move.twist != 0.0 && glm::length(along) > 0.0)
+                own[b] = own[b] * glm::angleAxis(move.twist * share, glm::normalize(along));
+        }
+    }
+    for (std::size_t b = 0; b < count; ++b) {
+        const Bone& bone = armature.bones[b];
+        BoneMotion& motion = motions[b];
+        glm::dquat before(1, 0, 0, 0);
+        DVec3 moved_before(0.0);
+        if (bone.parent != kNone) {
+            const Bone& parent = armature.bones[bone.parent];
+            const BoneMotion& of_parent = motions[bone.parent];
+            const DVec3 along = parent.tail - parent.head;
+            const double square = glm::dot(along, along);
+            const double share =
+                square > 0.0 ? glm::dot(bone.head - parent.head, along) / square : 0.0;
+            motion.shift = of_parent.shift + along * (share * (of_parent.stretch - 1.0));
+            before = of_parent.turn;
+            moved_before = of_parent.move;
+        }
+        const DVec3 head = bone.head + motion.shift;
+        motion.turn = before * own[b];
+        motion.move = before * head + moved_before - motion.turn * head;
+    }
+    return motions;
+}
+
+}  // namespace zskel

@@ -1,0 +1,234 @@
+#include "zskel/rig/pose.h"
+
+#include <doctest/doctest.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "support/extract.h"
+#include "support/shapes.h"
+#include "zskel/core/error.h"
+#include "zskel/mesh/read_mesh.h"
+#include "zskel/rig/skinning.h"
+
+using namespace zskel;
+
+namespace {
+
+constexpr double kRight = std::numbers::pi / 2.0;
+
+// A hub, and two bones along x, from 0 over 1 to 2.
+Armature two_bones() {
+    Armature armature;
+    armature.bones = {{"root", kNone, {0, 0, 0}, {0, 0, 0}, 0.1},
+                      {"branch0.0", 0, {0, 0, 0}, {1, 0, 0}, 0.1},
+                      {"branch0.1", 1, {1, 0, 0}, {2, 0, 0}, 0.1}};
+    return armature;
+}
+
+Move move_of(std::vector<std::uint32_t> bones) {
+    Move move;
+    move.bones = std::move(bones);
+    move.axis = {0, 0, 1};
+    return move;
+}
+
+DVec3 placed(const BoneMotion& motion, const DVec3& point) {
+    return motion.turn * point + motion.move;
+}
+
+// A tube of radius 0.1 along x from 0 to 2, and its weights: a sharp change at 1.
+Mesh tube() {
+    Mesh mesh = test::cylinder(0.1, 2.0, 24, 41);
+    for (DVec3& p : mesh.positions) p = {p.z + 1.0, p.y, -p.x};
+    return mesh;
+}
+std::vector<std::vector<Influence>> tube_weights(const Mesh& mesh) {
+    std::vector<std::vector<Influence>> weights;
+    for (const DVec3& p : mesh.positions) {
+        const auto second = static_cast<float>(glm::clamp((p.x - 0.8) / 0.4, 0.0, 1.0));
+        weights.push_back(second < 1.0f ? std::vector<Influence>{{1, 1.0f - second}}
+                                        : std::vector<Influence>{});
+        if (second > 0.0f) weights.back().push_back({2, second});
+    }
+    return weights;
+}
+
+}  // namespace
+
+TEST_CASE("bone_motions: a bend is shared out over a branch, a turn is at its start") {
+    Move bend = move_of({1, 2});
+    bend.bend = kRight;
+    const auto bent = bone_motions(two_bones(), {bend});
+    const double half = std::sqrt(0.5);
+    CHECK(glm::distance(placed(bent[1], {1, 0, 0}), DVec3(half, half, 0)) < 1e-12);
+    CHECK(glm::distance(placed(bent[2], {1, 0, 0}), DVec3(half, half, 0)) < 1e-12);
+    CHECK(glm::distance(placed(bent[2], {2, 0, 0}), DVec3(half, half + 1, 0)) < 1e-12);
+
+    Move turn = move_of({1, 2});
+    turn.turn = kRight;
+    const auto turned = bone_motions(two_bones(), {turn});
+    CHECK(glm::distance(placed(turned[2], {2, 0, 0}), DVec3(0, 2, 0)) < 1e-12);
+}
+
+TEST_CASE("bone_motions: a twist leaves the axis, a stretch moves what hangs on it") {
+    Move twist = move_of({1, 2});
+    twist.twist = 2.0 * kRight;
+    const auto twisted = bone_motions(two_bones(), {twist});
+    CHECK(glm::distance(placed(twisted[2], {2, 0, 0}), DVec3(2, 0, 0)) < 1e-12);
+    CHECK(glm::distance(placed(twisted[1], {1, 1, 0}), DVec3(1, 0, 1)) < 1e-12);
+    CHECK(glm::distance(placed(twisted[2], {2, 1, 0}), DVec3(2, -1, 0)) < 1e-12);
+
+    Move stretch = move_of({1});
+    stretch.stretch = 1.5;
+    const auto longer = bone_motions(two_bones(), {stretch});
+    CHECK(glm::distance(longer[2].shift, DVec3(0.5, 0, 0)) < 1e-12);
+    CHECK(longer[2].stretch == 1.0);
+}
+
+TEST_CASE("deform: nothing moves in the rest pose, and a stretch is exact along a tube") {
+    const Mesh mesh = tube();
+    const auto weights = tube_weights(mesh);
+    const auto rest = bone_motions(two_bones(), {});
+    for (const Skinning skinning : {Skinning::DualQuaternion, Skinning::Linear}) {
+        const auto same = deform(mesh, two_bones(), weights, rest, skinning);
+        for (std::size_t v = 0; v < same.size(); ++v)
+            CHECK(glm::distance(same[v], mesh.positions[v]) < 1e-12);
+    }
+    Move stretch = move_of({1, 2});
+    stretch.stretch = 1.5;
+    const auto motions = bone_motions(two_bones(), {stretch});
+    const auto longer = deform(mesh, two_bones(), weights, motions, Skinning::DualQuaternion);
+    for (std::size_t v = 0; v < longer.size(); ++v) {
+        const DVec3& p = mesh.positions[v];
+        CHECK(glm::distance(longer[v], DVec3(1.5 * p.x, p.y, p.z)) < 1e-9);
+    }
+    const DeformMeasures measures = measure_deformation(mesh, longer, weights, motions);
+    CHECK(measures.volume_change == doctest::Approx(0.5));
+    CHECK(measures.flipped_faces == 0);
+    CHECK(measures.edge_stretch_worst == doctest::Approx(1.5));
+    CHECK(measures.farthest ==
+          doctest::Approx(1.0 / glm::length(DVec3(2, 0.2, 0.2))).epsilon(0.01));
+}
+
+TEST_CASE("deform: where a tube is twisted dual quaternions keep its girth, the mean does not") {
+    const Mesh mesh = tube();
+    const auto weights = tube_weights(mesh);
+    Move twist = move_of({2});
+    twist.twist = 1.9 * kRight;
+    const auto motions = bone_motions(two_bones(), {twist});
+    const auto thinnest = [&](Skinning skinning) {
+        double least = 1.0;
+        for (const DVec3& p : deform(mesh, two_bones(), weights, motions, skinning)) {
+            if (p.x > 0.1 && p.x < 1.9) least = std::min(least, std::hypot(p.y, p.z));
+        }
+        return least;
+    };
+    CHECK(thinnest(Skinning::DualQuaternion) == doctest::Approx(0.1));
+    CHECK(thinnest(Skinning::Linear) < 0.03);
+}
+
+TEST_CASE("measure_deformation: a face that is turned against its bones is counted") {
+    Mesh mesh;
+    mesh.positions = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}};
+    test::add_triangle(mesh, 0, 1, 2);
+    test::add_triangle(mesh, 0, 2, 3);
+    const std::vector<std::vector<Influence>> weights(mesh.positions.size(), {{1, 1.0f}});
+    Move turn = move_of({1, 2});
+    turn.axis = {1, 0, 0};
+    turn.turn = 2.0 * kRight;
+    const auto motions = bone_motions(two_bones(), {turn});
+    auto deformed = deform(mesh, two_bones(), weights, motions, Skinning::DualQuaternion);
+    CHECK(measure_deformation(mesh, deformed, weights, motions).flipped_faces == 0);
+    deformed[3] = deformed[1];  // folded over the diagonal
+    deformed[3].z += 1e-3;
+    CHECK(measure_deformation(mesh, deformed, weights, motions).flipped_faces == 1);
+}
+
+TEST_CASE("read_pose: by branch, by bone, by the nearest point") {
+    const Pose pose = read_pose(R"({"moves": [
+        {"branch": 0, "bend": 90, "axis": [0, 0, 2]},
+        {"bone": "branch0.1", "twist": 45},
+        {"near": [1.9, 0.3, 0], "stretch": 1.25}]})",
+                                "a.json", two_bones());
+    REQUIRE(pose.size() == 3);
+    CHECK(pose[0].bones == std::vector<std::uint32_t>{1, 2});
+    CHECK(pose[0].bend == doctest::Approx(kRight));
+    CHECK(pose[0].axis == DVec3(0, 0, 1));
+    CHECK(pose[1].bones == std::vector<std::uint32_t>{2});
+    CHECK(pose[2].bones == std::vector<std::uint32_t>{1, 2});
+    CHECK(pose[2].stretch == 1.25);
+}
+
+TEST_CASE("read_pose: what is wrong is named, with its place") {
+    const auto refused = [](const char* text, const char* piece) {
+        INFO(text);
+        CHECK_THROWS_WITH_AS(read_pose(text, "a.json", two_bones()), doctest::Contains(piece),
+                             InputError);
+    };
+    refused("{", "a.json: no JSON");
+    refused("{}", "moves");
+    refused(R"({"moves": [{"bend": 3}]})", "a.json: moves[0]");
+    refused(R"({"moves": [{"branch": 0, "bone": "branch0.0"}]})", "one of branch, bone and near");
+    refused(R"({"moves": [{"branch": 7}]})", "moves[0]: branch: '7'");
+    refused(R"({"moves": [{"branch": -1}]})", "branch");
+    refused(R"({"moves": [{"bone": "leg"}]})", "bone");
+    refused(R"({"moves": [{"near": [1, 2]}]})", "three numbers");
+    refused(R"({"moves": [{"branch": 0, "bend": 30}]})", "axis");
+    refused(R"({"moves": [{"branch": 0, "bend": 30, "axis": [0, 0, 0]}]})", "a direction");
+    refused(R"({"moves": [{"branch": 0, "bend": "x", "axis": [0, 0, 1]}]})", "bend");
+    refused(R"({"moves": [{"branch": 0, "stretch": 0}]})", "above 0");
+    refused(R"({"moves": [{"branch": 0, "bent": 30}]})", "bent");
+}
+
+TEST_CASE("deform: each limb of the horse bent by 45 degrees, and no other goes along") {
+    const Mesh horse = read_mesh(ZSKEL_MODELS "/horse.obj");
+    const ExtractResult result = test::extract(horse);
+    const Armature armature = build_armature(result.graph, {});
+    const auto weights = skin_weights(horse, result.graph, armature, {});
+    DVec3 low = horse.positions.front();
+    DVec3 high = low;
+    for (const DVec3& p : horse.positions) {
+        low = glm::min(low, p);
+        high = glm::max(high, p);
+    }
+    const std::vector<Branch> branches = find_branches(result.graph);
+    const auto is_end = [&](std::size_t b) {
+        return b < branches.size() &&
+               (branches[b].start_degree == 1 || branches[b].stop_degree == 1);
+    };
+    std::vector<std::size_t> branch_of;  // of every bone
+    for (const Bone& bone : armature.bones)
+        branch_of.push_back(bone.parent == kNone ? branches.size()
+                                                 : std::stoul(bone.name.substr(6)));
+    std::size_t limbs = 0;
+    for (std::size_t b = 0; b < branches.size(); ++b) {
+        if (!is_end(b)) continue;
+        ++limbs;
+        for (const DVec3& axis : {DVec3(1, 0, 0), DVec3(0, 0, 1)}) {
+            Move bend;
+            for (std::uint32_t bone = 0; bone < armature.bones.size(); ++bone) {
+                if (branch_of[bone] == b) bend.bones.push_back(bone);
+            }
+            bend.axis = axis;
+            bend.bend = 0.5 * kRight;
+            const auto motions = bone_motions(armature, {bend});
+            const auto deformed =
+                deform(horse, armature, weights, motions, Skinning::DualQuaternion);
+            const DeformMeasures m = measure_deformation(horse, deformed, weights, motions);
+            INFO("branch " << b);
+            CHECK(std::abs(m.volume_change) <= 0.01);
+            CHECK(static_cast<double>(m.flipped_faces) <=
+                  0.001 * static_cast<double>(horse.triangles.size()));
+            CHECK(m.farthest > 0.005);
+            double others = 0.0;
+            for (std::size_t v = 0; v < deformed.size(); ++v) {
+                const std::size_t own = branch_of[weights[v].front().bone];
+                if (own == b || !is_end(own)) continue;
+                others = std::max(others, glm::distance(deformed[v], horse.positions[v]));
+            }
+            CHECK(others <= 0.005 * glm::distance(low, high));
+        }
+    }
+    CHECK(limbs == 8);
+}
