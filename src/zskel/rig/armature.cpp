@@ -110,7 +110,8 @@ class ArmatureBuilder {
         std::vector<std::pair<std::uint32_t, std::uint32_t>> starts;  // node, chain that ends there
         for (const std::uint32_t root : roots_) starts.emplace_back(root, kNone);
         for (std::size_t i = 0; i < starts.size(); ++i) {
-            const auto [start, parent] = starts[i];
+            const std::uint32_t start = starts[i].first;
+            const std::uint32_t parent = starts[i].second;
             for (const std::uint32_t child : children_[start]) {
                 Chain chain;
                 chain.parent = parent;
