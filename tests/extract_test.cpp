@@ -130,6 +130,40 @@ TEST_CASE("skeleton_json: holds nodes, edges, vertex map, statistics and provena
     CHECK(json["seeds"][3]["path"].size() == json["seeds"][3]["steps"].get<std::size_t>() + 1);
 }
 
+TEST_CASE("extract_skeleton: nodes are evenly spread when that is asked for") {
+    ExtractOptions options;
+    options.newton.resample_model = 0.03;
+    const ExtractResult result = test::extract(test::torus(), options);
+    CHECK(result.check.failures.empty());
+    CHECK(graph_topology(result.graph).cycles == 1);
+    // A ring of radius 0.35, at most 0.03 apart, has 73.3 pieces of a circle.
+    CHECK(result.graph.edges.size() == 74);
+    for (const SkeletonGraph::Edge& edge : result.graph.edges) {
+        const double length = glm::distance(result.graph.nodes[edge.source].position,
+                                            result.graph.nodes[edge.target].position);
+        CHECK(length == doctest::Approx(2.2 / 74.0).epsilon(0.05));
+    }
+    options.newton.resample_model = 1e-12;
+    CHECK_THROWS_AS(test::extract(test::torus(), options), UsageError);
+}
+
+TEST_CASE("extract_skeleton: an active contour keeps nearer to a ring's core") {
+    const auto off_core = [](const ExtractOptions& options) {
+        double sum = 0.0;
+        const ExtractResult result = test::extract(test::torus(), options);
+        CHECK(result.check.failures.empty());
+        for (const SkeletonGraph::Node& node : result.graph.nodes) {
+            const double ring = std::hypot(node.position.x, node.position.y);
+            sum += std::hypot(ring - 0.35, node.position.z);
+        }
+        return sum / static_cast<double>(result.graph.nodes.size());
+    };
+    ExtractOptions contour;
+    contour.newton.refine = active_contour();
+    CHECK(off_core(contour) < 0.6 * off_core({}));
+    CHECK(off_core(contour) < 0.001);
+}
+
 TEST_CASE("write_skeleton: OBJ lines have a v for each node and an l for each edge") {
     SkeletonGraph graph;
     graph.nodes = {{{0.5, 0, -1e-9}, 1, 0}, {{1, 2, 3}, 1, 0}};

@@ -59,6 +59,8 @@ case_usage() {
     local value
     for value in 0 -1 nan inf x ''; do refused 2 '--step' extract cube.obj --step="$value"; done
     for value in -1 nan inf x ''; do refused 2 '--min-handle' extract cube.obj --min-handle="$value"; done
+    for value in -1 nan inf x ''; do refused 2 '--resample' extract cube.obj --resample="$value"; done
+    refused 2 '--active-contour goes with --method newton' extract cube.obj --method paper --active-contour
     refused 2 '--min-handle goes with --method newton' extract cube.obj --method paper --min-handle 1
     refused 2 '--cluster' extract cube.obj --cluster -1
     refused 2 '--offset' extract cube.obj --offset nan

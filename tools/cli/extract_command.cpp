@@ -200,6 +200,19 @@ void add_method_options(CLI::App& command, Arguments& arguments) {
             ->capture_default_str()
             ->check(length_or_zero())
             ->group(kNewton),
+        command
+            .add_option("--resample", newton.resample_model,
+                        "Spread the nodes evenly, at most this far apart, in the model's units; "
+                        "0: by the radius")
+            ->type_name("LENGTH")
+            ->capture_default_str()
+            ->check(length_or_zero())
+            ->group(kNewton),
+        command
+            .add_flag_callback(
+                "--active-contour", [&newton] { newton.refine = active_contour(); },
+                "Keep to the shape's own bends: more centring, less smoothing of branches")
+            ->group(kNewton),
     };
     arguments.paper_only = {
         command.add_option("--step", paper.steps.step_world, "Length of a step, in the unit cube")

@@ -156,7 +156,10 @@ Json options_json(const Provenance& provenance) {
                     {"cluster_radii", o.newton.cluster_radii},
                     {"min_handle_model", o.newton.min_handle_model},
                     {"detail", o.newton.limbs.detail},
-                    {"sweeps", o.newton.refine.sweeps}});
+                    {"sweeps", o.newton.refine.sweeps},
+                    {"centring", o.newton.refine.centring},
+                    {"smoothing", o.newton.refine.smoothing},
+                    {"resample_model", o.newton.resample_model}});
     }
     return out;
 }

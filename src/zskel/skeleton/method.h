@@ -70,6 +70,7 @@ struct NewtonMethodOptions {
     int max_retries = 4;            ///< each with half the range where clusters go round a handle
     double min_handle_model = 0.0;  ///< handles of a smaller radius get no cycle; see SmallHandle
     RefineOptions refine;
+    double resample_model = 0.0;  ///< nodes evenly spread, at most so far apart; 0: by the radius
 };
 SolidSkeleton extract_by_newton(
     const Surface& surface, const SurfaceQuery& query, bool is_closed,

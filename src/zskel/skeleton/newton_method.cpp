@@ -163,7 +163,10 @@ SolidSkeleton extract_by_newton(
         break;
     }
     progress.begin("refine");
-    out.refine = refine_graph(graph, seed_points, query, options.refine);
+    RefineOptions refine = options.refine;
+    if (options.resample_model > 0.0)
+        refine.even_spacing_world = options.resample_model * surface.world_from_model.scale;
+    out.refine = refine_graph(graph, seed_points, query, refine);
     flatten(graph, surface, spread, out);
     out.forest_edges = out.nodes.size() - 1;
     return out;

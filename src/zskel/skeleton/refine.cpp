@@ -7,15 +7,24 @@
 
 namespace zskel {
 
+RefineOptions active_contour() {
+    RefineOptions options;
+    options.centring = 0.5;
+    options.smoothing = 0.4;
+    options.unshrink = 0.33;
+    return options;
+}
+
 RefineReport refine_graph(CurveGraph& graph, std::span<const Vec3> seed_points,
                           const SurfaceQuery& query, const RefineOptions& options) {
     RefineReport report;
     report.merged_junctions = merge_junctions(graph, query, options.merge_radii);
     report.extended_ends = extend_ends(graph, seed_points, query, options);
-    resample_branches(graph, seed_points, query, options);
+    resample_branches(graph, seed_points, query, options, Spacing::ByRadius);
     centre_branches(graph, query, options);
     aim_ends(graph, query, options);
-    resample_branches(graph, seed_points, query, options);
+    resample_branches(graph, seed_points, query, options,
+                      options.even_spacing_world > 0.0 ? Spacing::Even : Spacing::ByRadius);
     for (CurveGraph::Node& node : graph.nodes) {
         if (!node.is_removed) node.radius = query.nearest(node.position).distance;
     }

@@ -13,9 +13,11 @@ struct RefineOptions {
     double tip_gap_radii = 0.3;        ///< ends are extended to this distance from the tip
     double min_spacing_world = 0.004;  ///< of nodes; between these bounds it is the radius
     double max_spacing_world = 0.02;
-    int smoothing_sweeps = 12;  ///< before, of smoothing alone
-    int sweeps = 60;            ///< of centring and smoothing
-    double centring = 0.2;      ///< share of the way to the section's centre that a sweep takes
+    double even_spacing_world = 0.0;  ///< in the end nodes are evenly spread, at most so far apart;
+                                      ///< 0: by the radius
+    int smoothing_sweeps = 12;        ///< before, of smoothing alone
+    int sweeps = 60;                  ///< of centring and smoothing
+    double centring = 0.2;  ///< share of the way to the section's centre that a sweep takes
     double longest_move_radii = 0.3;  ///< but no longer than this, in inscribed radii
     double junction_radii = 0.3;      ///< nearer to a junction the centring fades: a section says
                                       ///< little where branches part
@@ -25,6 +27,10 @@ struct RefineOptions {
     double aim_least =
         0.7;  ///< unless that is shorter than this share of it, or longer by a radius
 };
+
+/// Settings by which branches keep to the shape's own bends (the paper's active contour): twice as
+/// much centring and half as much smoothing as the defaults.
+RefineOptions active_contour();
 
 struct RefineReport {
     std::size_t merged_junctions = 0;

@@ -1,17 +1,27 @@
 #include "zskel/skeleton/resample.h"
 
-#include <algorithm>
+#include <fmt/format.h>
 
+#include <algorithm>
+#include <cmath>
+
+#include "zskel/core/error.h"
 #include "zskel/skeleton/path.h"
 
 namespace zskel {
 namespace {
 
+constexpr double kMostNodes = 1e7;
+
 class Resampler {
   public:
     Resampler(CurveGraph& graph, std::span<const Vec3> seed_points, const SurfaceQuery& query,
-              const RefineOptions& options)
-        : graph_(graph), seed_points_(seed_points), query_(query), options_(options) {}
+              const RefineOptions& options, Spacing spacing)
+        : graph_(graph),
+          seed_points_(seed_points),
+          query_(query),
+          options_(options),
+          spacing_(spacing) {}
 
     void run() {
         for (const std::vector<std::uint32_t>& branch : graph_.branches()) {
@@ -40,7 +50,7 @@ class Resampler {
     void lay_nodes(std::uint32_t first, std::uint32_t last, const std::vector<Vec3>& line,
                    const std::vector<std::uint32_t>& seeds) {
         std::vector<std::uint32_t> chain{first};
-        for (const Vec3& point : even_points(line, needed_pieces(first, last)))
+        for (const Vec3& point : points_within(line, needed_pieces(first, last)))
             chain.push_back(graph_.add(point, query_.nearest(point).distance));
         chain.push_back(last);
         for (std::size_t i = 1; i < chain.size(); ++i) graph_.link(chain[i - 1], chain[i]);
@@ -62,16 +72,33 @@ class Resampler {
         return std::find(links.begin(), links.end(), last) != links.end() ? 2 : 1;
     }
 
+    // 1 where nodes are not to be even.
+    int even_pieces(float length) {
+        if (spacing_ != Spacing::Even) return 1;
+        const double pieces = std::ceil(static_cast<double>(length) / options_.even_spacing_world);
+        nodes_ += pieces;
+        if (!(nodes_ <= kMostNodes)) {
+            throw UsageError(fmt::format(
+                "so small a distance between nodes asks for more than {} of them", kMostNodes));
+        }
+        return std::max(1, static_cast<int>(pieces));
+    }
+
     // Points within the line, one local spacing apart. Corners stay where the shortcut past them is
     // not free.
-    std::vector<Vec3> even_points(const std::vector<Vec3>& line, int least_pieces) const {
-        const float longest = length_of(line) / static_cast<float>(least_pieces);
+    std::vector<Vec3> points_within(const std::vector<Vec3>& line, int least_pieces) {
+        const float length = length_of(line);
+        const float longest =
+            length / static_cast<float>(std::max(least_pieces, even_pieces(length)));
         std::vector<Vec3> points;
         Vec3 at = line.front();
         std::size_t next = 1;
         while (true) {
             const float spacing =
-                std::min(longest, static_cast<float>(spacing_at(query_.nearest(at).distance)));
+                spacing_ == Spacing::Even
+                    ? longest
+                    : std::min(longest,
+                               static_cast<float>(spacing_at(query_.nearest(at).distance)));
             Vec3 here = at;
             float left = spacing;
             std::size_t segment = next;
@@ -102,13 +129,15 @@ class Resampler {
     std::span<const Vec3> seed_points_;
     const SurfaceQuery& query_;
     const RefineOptions& options_;
+    Spacing spacing_;
+    double nodes_ = 0.0;  // asked for so far, where they are even
 };
 
 }  // namespace
 
 void resample_branches(CurveGraph& graph, std::span<const Vec3> seed_points,
-                       const SurfaceQuery& query, const RefineOptions& options) {
-    Resampler(graph, seed_points, query, options).run();
+                       const SurfaceQuery& query, const RefineOptions& options, Spacing spacing) {
+    Resampler(graph, seed_points, query, options, spacing).run();
 }
 
 }  // namespace zskel
