@@ -1,6 +1,7 @@
 #include <doctest/doctest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstring>
 #include <nlohmann/json.hpp>
@@ -139,6 +140,53 @@ TEST_CASE("build_armature: a ring is opened opposite its root, and that is said"
     CHECK(armature.cuts[0].bone != armature.cuts[0].other);
 }
 
+TEST_CASE("build_armature: every branch beside a cut loop has bones of its own") {
+    // A ring of 16 nodes, a tail of 6 at opposite ones.
+    SkeletonGraph ring;
+    for (std::uint32_t i = 0; i < 16; ++i) {
+        const double angle = 2.0 * 3.14159265358979 * i / 16.0;
+        ring.nodes.push_back({{std::cos(angle), std::sin(angle), 0.0}, 0.1, 0, 0.0});
+        if (i > 0) ring.edges.push_back({i - 1, i});
+    }
+    ring.edges.push_back({0, 15});
+    for (const std::uint32_t start : {0u, 8u}) {
+        for (int i = 1; i <= 6; ++i) {
+            const double side = start == 0 ? 1.0 : -1.0;
+            ring.nodes.push_back({{side * (1.0 + 0.2 * i), 0.0, 0.0}, 0.1, 0, 0.0});
+            const auto n = static_cast<std::uint32_t>(ring.nodes.size() - 1);
+            ring.edges.push_back({i == 1 ? start : n - 1, n});
+        }
+    }
+    const Armature armature = build_armature(ring, {});
+    check_sound(armature);
+    CHECK(armature.cuts.size() == 1);
+    const std::vector<Branch> branches = find_branches(ring);
+    REQUIRE(branches.size() == 4);
+    for (std::uint32_t b = 0; b < branches.size(); ++b) {
+        std::size_t bones = 0;
+        for (std::uint32_t bone = 0; bone < armature.bones.size(); ++bone) {
+            if (armature.bones[bone].branch != b) continue;
+            ++bones;
+            for (std::uint32_t n = 0; n < ring.nodes.size(); ++n) {
+                if (armature.node_bones[n] != std::vector<std::uint32_t>{bone}) continue;
+                const auto& nodes = branches[b].nodes;
+                CHECK(std::find(nodes.begin(), nodes.end(), n) != nodes.end());
+            }
+        }
+        INFO("branch " << b);
+        CHECK(bones > 0);
+    }
+}
+
+TEST_CASE("build_armature: what has no junction is one chain from an end, however thick within") {
+    SkeletonGraph spindle = line_graph(-1.0, 1.0, 0.1, 0.1);
+    spindle.nodes[10].radius = 0.3;
+    const Armature armature = build_armature(spindle, {});
+    check_sound(armature);
+    for (std::uint32_t b = 1; b < armature.bones.size(); ++b)
+        CHECK(armature.bones[b].parent == b - 1);
+}
+
 TEST_CASE("build_armature: within a bound bones get coarser, then short branches go along") {
     SkeletonGraph star = line_graph(-1.0, 1.0, 0.1, 0.05);
     for (int i = 1; i <= 3; ++i) {  // a short branch from its middle
@@ -148,12 +196,12 @@ TEST_CASE("build_armature: within a bound bones get coarser, then short branches
     }
     ArmatureOptions options;
     CHECK(build_armature(star, options).bones.size() > 6);
-    options.max_bones = 4;
+    options.max_bones = 7;  // a hub, and three times a bone and its end
     const Armature four = build_armature(star, options);
     check_sound(four);
     CHECK(four.bones.size() == 4);
     CHECK(four.dropped_branches == 0);
-    options.max_bones = 3;
+    options.max_bones = 6;
     const Armature three = build_armature(star, options);
     check_sound(three);
     CHECK(three.bones.size() == 3);
@@ -254,6 +302,29 @@ TEST_CASE("write_rig_glb: mesh, joints and weights of a tube") {
     const std::size_t joints = skin["joints"].size();
     CHECK(joints == armature.bones.size() + 1);  // and an end of the last
     CHECK(file["accessors"][skin["inverseBindMatrices"].get<std::size_t>()]["count"] == joints);
+    // Down from the root every joint's node is where its inverse bind matrix says.
+    const auto& binds =
+        file["bufferViews"]
+            [file["accessors"][skin["inverseBindMatrices"].get<std::size_t>()]["bufferView"]
+                 .get<std::size_t>()];
+    const std::size_t binary = 20 + size + 8 + binds["byteOffset"].get<std::size_t>();
+    std::vector<DVec3> places(file["nodes"].size(), DVec3(0.0));
+    for (std::size_t j = 0; j < joints; ++j) {
+        const auto node = skin["joints"][j].get<std::size_t>();
+        const auto& move = file["nodes"][node]["translation"];
+        places[node] += DVec3(move[0].get<double>(), move[1].get<double>(), move[2].get<double>());
+        if (file["nodes"][node].contains("children")) {
+            for (const auto& child : file["nodes"][node]["children"])
+                places[child.get<std::size_t>()] += places[node];
+        }
+        std::array<float, 16> bind{};
+        std::memcpy(bind.data(), bytes.data() + binary + 64 * j, 64);
+        for (std::size_t k = 0; k < 3; ++k) {
+            CHECK(static_cast<double>(bind[12 + k]) ==
+                  doctest::Approx(-places[node][static_cast<int>(k)]).epsilon(1e-5));
+            CHECK(bind[5 * k] == 1.0f);
+        }
+    }
     const auto& attributes = file["meshes"][0]["primitives"][0]["attributes"];
     for (const char* name : {"POSITION", "NORMAL", "JOINTS_0", "WEIGHTS_0"}) {
         const auto accessor = attributes[name].get<std::size_t>();

@@ -114,6 +114,7 @@ case_deform() {
     [[ ! -s err ]] || fail "not quiet"
     grep -q '^v ' out || fail "no OBJ on standard output"
     refused 2 '--pose' deform y.obj -o b.obj
+    refused 2 'standard input' deform - --pose - -o b.obj
     refused 2 'bend.json' deform y.obj --pose bend.json -o bend.json
     refused 2 'y.obj' deform y.obj --pose bend.json -o y.obj
     refused 2 '--skinning' deform y.obj --pose bend.json -o b.obj --skinning nosuch

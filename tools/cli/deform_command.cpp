@@ -24,13 +24,17 @@ struct Arguments {
 
 std::string measures_text(const Mesh& mesh, const DeformMeasures& m) {
     return fmt::format(
-        "volume          {:+.3f} %\nflipped faces   {} of {}\nedge stretch    median {:.4f}, at "
+        "volume          {}\nflipped faces   {} of {}\nedge stretch    median {:.4f}, at "
         "99 % of the edges {:.3f}, worst {:.2f}\nfarthest moved  {:.4f} of the diagonal\n",
-        100.0 * m.volume_change, m.flipped_faces, mesh.triangles.size(), m.edge_stretch_median,
-        m.edge_stretch_p99, m.edge_stretch_worst, m.farthest);
+        m.volume_change ? fmt::format("{:+.3f} %", 100.0 * *m.volume_change)
+                        : "none: the surface is open",
+        m.flipped_faces, mesh.triangles.size(), m.edge_stretch_median, m.edge_stretch_p99,
+        m.edge_stretch_worst, m.farthest);
 }
 
 ExitCode deform_model(const Arguments& arguments, const Common& common) {
+    if (arguments.model == "-" && arguments.pose == "-")
+        throw UsageError("the model and the pose cannot both come from standard input");
     check_outputs(arguments.model, {arguments.output});
     check_outputs(arguments.pose, {arguments.output});
     const std::string pose_text = read_input_file(arguments.pose, "a pose (JSON)");

@@ -23,8 +23,8 @@ void say_what_was_left_out(const Armature& armature) {
 void add_rig_options(CLI::App& command, RigOptions& options) {
     command
         .add_option("--max-bones", options.armature.max_bones,
-                    "At most this many bones: they get coarser first, then the shortest end "
-                    "branches get none of their own; 0: as many as the shape needs")
+                    "At most this many joints: bones, roots and ends of limbs. Bones get coarser "
+                    "first, then the shortest end branches get none; 0: as many as the shape needs")
         ->capture_default_str()
         ->check(CLI::Range(0, 60000));
     command

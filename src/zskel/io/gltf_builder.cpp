@@ -2,7 +2,10 @@
 
 #include <algorithm>
 #include <bit>
+#include <limits>
 #include <utility>
+
+#include "zskel/core/error.h"
 
 namespace zskel {
 namespace {
@@ -149,6 +152,8 @@ std::string GltfBuilder::glb(std::string json) const {
     std::string out;
     append(out, kGlbMagic);
     append(out, 2);
+    if (json.size() + bytes_.size() > std::numeric_limits<std::uint32_t>::max() - 64)
+        throw InputError("a GLB file cannot hold more than 4 GiB");
     const std::size_t bin_size = bytes_.empty() ? 0 : 8 + bytes_.size();
     append(out, static_cast<std::uint32_t>(12 + 8 + json.size() + bin_size));
     append(out, static_cast<std::uint32_t>(json.size()));

@@ -20,7 +20,7 @@ class GltfBuilder {
     enum class PrimitiveMode { Points = 0, Lines = 1, Triangles = 4 };
 
     /// Each adds an accessor with its own view of the buffer, and gives its number.
-    std::size_t add_positions(const std::vector<DVec3>& points);  ///< with their bounds
+    std::size_t add_positions(const std::vector<DVec3>& points);  ///< with their bounds; not empty
     std::size_t add_directions(const std::vector<DVec3>& directions);
     std::size_t add_scalars(const std::vector<float>& values);
     std::size_t add_indices(const std::vector<std::uint32_t>& values);
@@ -29,6 +29,7 @@ class GltfBuilder {
     std::size_t add_moves(const std::vector<DVec3>& moves);  ///< matrices that do no more than move
 
     /// The file.
+    /// @throws InputError when a binary file would be larger than its 32-bit sizes can say.
     /// @param document  scenes, nodes, meshes and skins; what describes the buffer is added here.
     std::string finish(Json document, const std::string& origin, GltfContainer container) const;
 

@@ -23,16 +23,9 @@ struct Joint {
 
 std::vector<Joint> joints_of(const Armature& armature) {
     std::vector<Joint> joints;
-    std::vector<bool> is_parent(armature.bones.size(), false);
-    for (const Bone& bone : armature.bones) {
-        joints.push_back({bone.name, bone.head, bone.parent});
-        if (bone.parent != kNone) is_parent[bone.parent] = true;
-    }
-    for (std::uint32_t b = 0; b < armature.bones.size(); ++b) {
-        const Bone& bone = armature.bones[b];
-        if (!is_parent[b] && bone.parent != kNone)
-            joints.push_back({bone.name + "_end", bone.tail, b});
-    }
+    for (const Bone& bone : armature.bones) joints.push_back({bone.name, bone.head, bone.parent});
+    for (const std::uint32_t b : last_bones(armature))
+        joints.push_back({armature.bones[b].name + "_end", armature.bones[b].tail, b});
     return joints;
 }
 
@@ -87,9 +80,11 @@ std::string write_rig_glb(const Mesh& mesh, const Armature& armature,
     std::vector<std::array<float, 4>> vertex_weights(weights.size());
     for (std::size_t v = 0; v < weights.size(); ++v) {
         const std::size_t count = std::min<std::size_t>(weights[v].size(), 4);
+        float sum = 0.0f;
+        for (std::size_t k = 0; k < count; ++k) sum += weights[v][k].weight;
         for (std::size_t k = 0; k < count; ++k) {
             vertex_joints[v][k] = static_cast<std::uint16_t>(weights[v][k].bone);
-            vertex_weights[v][k] = weights[v][k].weight;
+            vertex_weights[v][k] = weights[v][k].weight / sum;
         }
     }
     std::vector<std::uint32_t> corners;

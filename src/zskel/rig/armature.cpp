@@ -27,8 +27,6 @@ struct Chain {
     std::size_t out = 0;              // the first place in `nodes` outside its junction's ball
     std::vector<std::size_t> joints;  // places from there on where bones start and end; may be none
     std::uint32_t last_bone = kNone;  // what hangs on its end hangs on this
-
-    std::size_t bone_count() const { return joints.empty() ? 0 : joints.size() - 1; }
 };
 
 class ArmatureBuilder {
@@ -57,6 +55,11 @@ class ArmatureBuilder {
     const DVec3& at(std::uint32_t node) const { return graph_.nodes[node].position; }
     double radius(std::uint32_t node) const { return graph_.nodes[node].radius; }
 
+    // Junctions make the best roots, then ends.
+    int rank(std::uint32_t node) const {
+        return links_[node].size() > 2 ? 2 : links_[node].size() == 1 ? 1 : 0;
+    }
+
     // The shortest ways from the root of each component.
     void grow_trees() {
         std::vector<bool> is_seen(links_.size(), false);
@@ -73,9 +76,7 @@ class ArmatureBuilder {
             }
             roots_.push_back(
                 *std::max_element(part.begin(), part.end(), [&](std::uint32_t a, std::uint32_t b) {
-                    const bool a_joins = links_[a].size() > 2;
-                    const bool b_joins = links_[b].size() > 2;
-                    return a_joins != b_joins ? b_joins : radius(a) < radius(b);
+                    return rank(a) != rank(b) ? rank(a) < rank(b) : radius(a) < radius(b);
                 }));
             grow_tree(roots_.back());
         }
@@ -86,23 +87,26 @@ class ArmatureBuilder {
 
     void grow_tree(std::uint32_t root) {
         using Entry = std::pair<double, std::uint32_t>;
-        std::vector<double>& ways = ways_;
-        ways.resize(links_.size(), std::numeric_limits<double>::infinity());
+        ways_.resize(links_.size(), std::numeric_limits<double>::infinity());
         std::priority_queue<Entry, std::vector<Entry>, std::greater<>> front;
-        ways[root] = 0.0;
+        ways_[root] = 0.0;
         front.emplace(0.0, root);
         while (!front.empty()) {
             const auto [way, n] = front.top();
             front.pop();
-            if (way > ways[n]) continue;
+            if (way > ways_[n]) continue;
             for (const std::uint32_t next : links_[n]) {
                 const double there = way + glm::distance(at(n), at(next));
-                if (there >= ways[next]) continue;
-                ways[next] = there;
+                if (there >= ways_[next]) continue;
+                ways_[next] = there;
                 parents_[next] = n;
                 front.emplace(there, next);
             }
         }
+    }
+
+    bool is_within_branch(std::uint32_t node) const {
+        return children_[node].size() == 1 && links_[node].size() == 2;
     }
 
     // Parents first.
@@ -116,7 +120,7 @@ class ArmatureBuilder {
                 Chain chain;
                 chain.parent = parent;
                 chain.nodes = {start, child};
-                while (children_[chain.nodes.back()].size() == 1)
+                while (is_within_branch(chain.nodes.back()))
                     chain.nodes.push_back(children_[chain.nodes.back()].front());
                 const auto is_out = [&](std::uint32_t n) {
                     return glm::distance(at(n), at(start)) >= radius(start);
@@ -138,41 +142,44 @@ class ArmatureBuilder {
                                          roots_.size()));
         }
         double coarser = 1.0;
-        std::size_t count = joint_all(coarser);
-        for (int i = 0; most > 0 && count > most && i < kMostCoarser; ++i)
-            count = joint_all(coarser *= kCoarser);
-        while (most > 0 && count > most) {
+        joint_all(coarser);
+        for (int i = 0; most > 0 && count_all() > most && i < kMostCoarser; ++i)
+            joint_all(coarser *= kCoarser);
+        while (most > 0 && count_all() > most) {
             Chain* shortest = nullptr;
-            for (Chain& chain : chains_) {
-                if (!may_drop(chain)) continue;
-                if (shortest == nullptr || chain.length < shortest->length) shortest = &chain;
+            for (std::size_t c = 0; c < chains_.size(); ++c) {
+                if (!has_bones(chains_[c]) || carries_[c]) continue;
+                if (shortest == nullptr || chains_[c].length < shortest->length)
+                    shortest = &chains_[c];
             }
             if (shortest == nullptr) return;
             shortest->is_dropped = true;
             ++out_.dropped_branches;
-            count -= shortest->bone_count();
         }
     }
 
-    // Nothing kept starts at its end.
-    bool may_drop(const Chain& chain) const {
-        const auto number = static_cast<std::uint32_t>(&chain - chains_.data());
-        return !chain.is_dropped &&
-               std::none_of(chains_.begin(), chains_.end(), [&](const Chain& other) {
-                   return !other.is_dropped && other.parent == number;
-               });
+    static bool has_bones(const Chain& chain) { return !chain.is_dropped && !chain.joints.empty(); }
+
+    // Hubs, bones, and an end where none hangs on a chain; notes which chains carry others.
+    std::size_t count_all() {
+        carries_.assign(chains_.size(), false);
+        std::size_t count = roots_.size();
+        for (std::size_t c = chains_.size(); c-- > 0;) {
+            const Chain& chain = chains_[c];
+            if (has_bones(chain)) count += chain.joints.size() - 1 + (carries_[c] ? 0 : 1);
+            if (chain.parent != kNone && (has_bones(chain) || carries_[c]))
+                carries_[chain.parent] = true;
+        }
+        return count;
     }
 
-    std::size_t joint_all(double coarser) {
-        std::size_t bones = roots_.size();
+    void joint_all(double coarser) {
         for (Chain& chain : chains_) {
             chain.joints.clear();
             if (chain.out + 1 >= chain.nodes.size()) continue;
             chain.joints.push_back(chain.out);
             bend(chain, chain.out, chain.nodes.size() - 1, coarser);
-            bones += chain.bone_count();
         }
-        return bones;
     }
 
     // Appends the joints after `first` up to `last` (Douglas and Peucker's way of simplifying
@@ -203,8 +210,10 @@ class ArmatureBuilder {
         const double length = ways_[chain.nodes[last]] - ways_[chain.nodes[first]];
         const double longest =
             coarser * options_.longest_radii * thick / static_cast<double>(last - first + 1);
-        const auto pieces =
-            longest > 0.0 ? static_cast<std::size_t>(std::ceil(length / longest)) : std::size_t{1};
+        // No more than there are nodes to end at.
+        const auto most_pieces = static_cast<double>(last - first);
+        const auto pieces = static_cast<std::size_t>(
+            longest > 0.0 ? std::min(std::ceil(length / longest), most_pieces) : most_pieces);
         for (std::size_t piece = 1; piece < pieces; ++piece) {
             const double want = ways_[chain.nodes[first]] +
                                 length * static_cast<double>(piece) / static_cast<double>(pieces);
@@ -231,7 +240,7 @@ class ArmatureBuilder {
             out_.node_bones[roots_[r]] = {static_cast<std::uint32_t>(r)};
             const DVec3& place = at(roots_[r]);
             out_.bones.push_back({roots_.size() == 1 ? "root" : fmt::format("root{}", r), kNone,
-                                  place, place, radius(roots_[r])});
+                                  kNone, place, place, radius(roots_[r])});
         }
     }
 
@@ -240,10 +249,9 @@ class ArmatureBuilder {
         const std::vector<std::uint32_t>& nodes = chain.nodes;
         chain.last_bone = chain.parent == kNone ? out_.node_bones[nodes.front()].front()
                                                 : chains_[chain.parent].last_bone;
-        const bool has_bones = !chain.is_dropped && !chain.joints.empty();
-        const std::size_t held = has_bones ? chain.out + 1 : nodes.size();
+        const std::size_t held = has_bones(chain) ? chain.out + 1 : nodes.size();
         for (std::size_t i = 1; i < held; ++i) out_.node_bones[nodes[i]] = {chain.last_bone};
-        if (!has_bones) return;
+        if (!has_bones(chain)) return;
         const std::uint32_t branch = branch_of_.at(std::minmax(nodes[0], nodes[1]));
         for (std::size_t k = 1; k < chain.joints.size(); ++k) {
             const auto bone = static_cast<std::uint32_t>(out_.bones.size());
@@ -254,7 +262,7 @@ class ArmatureBuilder {
             }
             thick /= static_cast<double>(chain.joints[k] - chain.joints[k - 1] + 1);
             out_.bones.push_back({fmt::format("branch{}.{}", branch, bones_of_branch_[branch]++),
-                                  chain.last_bone, at(nodes[chain.joints[k - 1]]),
+                                  chain.last_bone, branch, at(nodes[chain.joints[k - 1]]),
                                   at(nodes[chain.joints[k]]), thick});
             chain.last_bone = bone;
         }
@@ -278,12 +286,36 @@ class ArmatureBuilder {
     std::vector<std::uint32_t> roots_;  // nodes, one a component
     std::vector<double> ways_;          // of nodes: length from their root
     std::vector<Chain> chains_;
+    std::vector<bool> carries_;  // of chains: whether bones hang on its end
     std::map<std::pair<std::uint32_t, std::uint32_t>, std::uint32_t> branch_of_;  // of edges
     std::vector<std::size_t> bones_of_branch_;
     Armature out_;
 };
 
 }  // namespace
+
+double share_along(const Bone& bone, const DVec3& point) {
+    const DVec3 along = bone.tail - bone.head;
+    const double square = glm::dot(along, along);
+    return square > 0.0 ? glm::dot(point - bone.head, along) / square : 0.0;
+}
+
+double distance_to(const Bone& bone, const DVec3& point) {
+    const double share = glm::clamp(share_along(bone, point), 0.0, 1.0);
+    return glm::distance(point, bone.head + (bone.tail - bone.head) * share);
+}
+
+std::vector<std::uint32_t> last_bones(const Armature& armature) {
+    std::vector<bool> carries(armature.bones.size(), false);
+    for (const Bone& bone : armature.bones) {
+        if (bone.parent != kNone) carries[bone.parent] = true;
+    }
+    std::vector<std::uint32_t> out;
+    for (std::uint32_t b = 0; b < armature.bones.size(); ++b) {
+        if (!carries[b] && armature.bones[b].parent != kNone) out.push_back(b);
+    }
+    return out;
+}
 
 Armature build_armature(const SkeletonGraph& graph, const ArmatureOptions& options) {
     return ArmatureBuilder(graph, options).build();

@@ -12,6 +12,7 @@ struct Bone {
     std::string name;              ///< "branch3.0": of `find_branches`, and the number along it;
                                    ///< "root" for a hub, with its number where there are several
     std::uint32_t parent = kNone;  ///< that it hangs on; kNone: a hub
+    std::uint32_t branch = kNone;  ///< of `find_branches`; kNone: a hub
     DVec3 head{0.0};               ///< where it starts, model space
     DVec3 tail{0.0};               ///< where it ends; a hub has no length
     double radius = 0.0;           ///< mean of the skeleton's along it
@@ -36,15 +37,25 @@ struct Armature {
 
 struct ArmatureOptions {
     double bend_radii = 0.5;     ///< a bone lies no farther than this from its branch, in radii
-    double longest_radii = 5.0;  ///< and is no longer than this
-    std::size_t max_bones = 0;   ///< 0: no bound
+    double longest_radii = 5.0;  ///< and is about so long at most: bones end at nodes
+    std::size_t max_bones = 0;   ///< hubs, bones and ends of limbs together; 0: no bound
 };
 
-/// Turns a skeleton into bones. The root of each component is its thickest junction (its thickest
-/// node where it has none); a loop is opened where the ways from the root round it meet. The first
-/// bone of a branch starts where the branch leaves the ball at its junction, as a hip lies off the
-/// spine: what is within the ball moves with what the branch hangs on. To keep within `max_bones`
-/// bones are made coarser; then the shortest end branches get none of their own, and move so too.
+/// Where a point lies along a bone: 0 at its head, 1 at its tail; 0 for a hub.
+double share_along(const Bone& bone, const DVec3& point);
+
+/// From a point to the nearest of a bone.
+double distance_to(const Bone& bone, const DVec3& point);
+
+/// The bones on which none hangs; hubs are not among them.
+std::vector<std::uint32_t> last_bones(const Armature& armature);
+
+/// Turns a skeleton into bones. The root of each component is its thickest junction (its thicker
+/// end where it has none); a loop is opened where the ways from the root round it meet, and the two
+/// parts of a branch that is cut so both start at its ends. The first bone of a branch starts at
+/// its first node outside the ball at its junction, as a hip lies off the spine: what is within the
+/// ball moves with what the branch hangs on. To keep within `max_bones` bones are made coarser;
+/// then the shortest end branches get none of their own, and move so too.
 /// @throws UsageError when there are more components than `max_bones`.
 Armature build_armature(const SkeletonGraph& graph, const ArmatureOptions& options);
 

@@ -14,6 +14,7 @@
 namespace zskel {
 namespace {
 
+constexpr double kLeastStretch = 1e-3;
 constexpr std::array<const char*, 3> kTargets = {"branch", "bone", "near"};
 constexpr std::array<const char*, 5> kDone = {"turn", "bend", "twist", "stretch", "axis"};
 
@@ -25,41 +26,27 @@ DVec3 vector_at(const JsonPlace& place) {
     return out;
 }
 
-std::string branch_of(const Bone& bone) {
-    return bone.name.substr(0, bone.name.rfind('.'));
-}
-
-std::vector<std::uint32_t> bones_of_branch(const Armature& armature, const std::string& branch) {
+std::vector<std::uint32_t> bones_of_branch(const Armature& armature, std::uint32_t branch) {
     std::vector<std::uint32_t> out;
     for (std::uint32_t b = 0; b < armature.bones.size(); ++b) {
-        if (branch_of(armature.bones[b]) == branch) out.push_back(b);
+        if (armature.bones[b].branch == branch) out.push_back(b);
     }
     return out;
 }
 
-std::uint32_t bone_nearest_to(const Armature& armature, const DVec3& point) {
-    const auto away = [&](const Bone& bone) {
-        // Hubs are meant by their names only.
-        if (bone.parent == kNone) return std::numeric_limits<double>::infinity();
-        const DVec3 along = bone.tail - bone.head;
-        const double square = glm::dot(along, along);
-        const double share =
-            square > 0.0 ? glm::clamp(glm::dot(point - bone.head, along) / square, 0.0, 1.0) : 0.0;
-        return glm::distance(point, bone.head + along * share);
-    };
-    const auto nearest =
-        std::min_element(armature.bones.begin(), armature.bones.end(),
-                         [&](const Bone& a, const Bone& b) { return away(a) < away(b); });
-    return static_cast<std::uint32_t>(nearest - armature.bones.begin());
+// Hubs are on no branch: they are meant by their names only.
+std::uint32_t branch_nearest_to(const Armature& armature, const DVec3& point) {
+    std::uint32_t branch = kNone;
+    double least = std::numeric_limits<double>::infinity();
+    for (const Bone& bone : armature.bones) {
+        if (bone.branch == kNone || !(distance_to(bone, point) < least)) continue;
+        least = distance_to(bone, point);
+        branch = bone.branch;
+    }
+    return branch;
 }
 
 std::vector<std::uint32_t> bones_meant(const JsonPlace& entry, const Armature& armature) {
-    if (entry.has("branch")) {
-        const JsonPlace branch = entry.at("branch");
-        auto bones = bones_of_branch(armature, fmt::format("branch{}", branch.count()));
-        if (bones.empty()) branch.fail("the number of a branch with bones");
-        return bones;
-    }
     if (entry.has("bone")) {
         const JsonPlace name = entry.at("bone");
         for (std::uint32_t b = 0; b < armature.bones.size(); ++b) {
@@ -67,8 +54,14 @@ std::vector<std::uint32_t> bones_meant(const JsonPlace& entry, const Armature& a
         }
         name.fail("the name of a bone");
     }
-    const std::uint32_t near = bone_nearest_to(armature, vector_at(entry.at("near")));
-    return bones_of_branch(armature, branch_of(armature.bones[near]));
+    const bool is_near = entry.has("near");
+    const JsonPlace place = entry.at(is_near ? "near" : "branch");
+    const std::uint32_t branch =
+        is_near ? branch_nearest_to(armature, vector_at(place)) : place.count();
+    std::vector<std::uint32_t> bones = bones_of_branch(armature, branch);
+    if (branch == kNone || bones.empty())
+        place.fail(is_near ? "near a branch with bones" : "the number of a branch with bones");
+    return bones;
 }
 
 double radians_at(const JsonPlace& entry, const char* key) {
@@ -93,13 +86,16 @@ Move read_move(const JsonPlace& entry, const Armature& armature) {
     move.twist = radians_at(entry, "twist");
     if (entry.has("stretch")) {
         move.stretch = entry.at("stretch").number();
-        if (!(move.stretch > 0.0)) entry.at("stretch").fail("above 0");
+        if (!(move.stretch >= kLeastStretch && move.stretch <= 1.0 / kLeastStretch))
+            entry.at("stretch").fail("from 0.001 to 1000");
     }
     if (entry.has("turn") || entry.has("bend")) {
         const JsonPlace axis = entry.at("axis");
         move.axis = vector_at(axis);
-        if (!(glm::length(move.axis) > 0.0)) axis.fail("a direction");
-        move.axis = glm::normalize(move.axis);
+        const double largest =
+            std::max({std::abs(move.axis.x), std::abs(move.axis.y), std::abs(move.axis.z)});
+        if (!(largest > 0.0)) axis.fail("a direction");
+        move.axis = glm::normalize(move.axis / largest);
     }
     return move;
 }
@@ -120,7 +116,8 @@ Pose read_pose(std::string_view bytes, const std::string& name, const Armature& 
 std::vector<BoneMotion> bone_motions(const Armature& armature, const Pose& pose) {
     const std::size_t count = armature.bones.size();
     std::vector<BoneMotion> motions(count);
-    std::vector<glm::dquat> own(count, glm::dquat(1, 0, 0, 0));
+    std::vector<glm::dquat> twists(count, glm::dquat(1, 0, 0, 0));
+    std::vector<glm::dquat> turns = twists;
     for (const Move& move : pose) {
         const double share = 1.0 / static_cast<double>(move.bones.size());
         for (std::size_t i = 0; i < move.bones.size(); ++i) {
@@ -128,10 +125,10 @@ std::vector<BoneMotion> bone_motions(const Armature& armature, const Pose& pose)
             const Bone& bone = armature.bones[b];
             motions[b].stretch *= move.stretch;
             const double about_axis = (i == 0 ? move.turn : 0.0) + move.bend * share;
-            if (about_axis != 0.0) own[b] = own[b] * glm::angleAxis(about_axis, move.axis);
+            if (about_axis != 0.0) turns[b] = glm::angleAxis(about_axis, move.axis) * turns[b];
             const DVec3 along = bone.tail - bone.head;
             if (move.twist != 0.0 && glm::length(along) > 0.0)
-                own[b] = own[b] * glm::angleAxis(move.twist * share, glm::normalize(along));
+                twists[b] = glm::angleAxis(move.twist * share, glm::normalize(along)) * twists[b];
         }
     }
     for (std::size_t b = 0; b < count; ++b) {
@@ -142,16 +139,14 @@ std::vector<BoneMotion> bone_motions(const Armature& armature, const Pose& pose)
         if (bone.parent != kNone) {
             const Bone& parent = armature.bones[bone.parent];
             const BoneMotion& of_parent = motions[bone.parent];
-            const DVec3 along = parent.tail - parent.head;
-            const double square = glm::dot(along, along);
-            const double share =
-                square > 0.0 ? glm::dot(bone.head - parent.head, along) / square : 0.0;
-            motion.shift = of_parent.shift + along * (share * (of_parent.stretch - 1.0));
+            motion.shift =
+                of_parent.shift + (parent.tail - parent.head) *
+                                      (share_along(parent, bone.head) * (of_parent.stretch - 1.0));
             before = of_parent.turn;
             moved_before = of_parent.move;
         }
         const DVec3 head = bone.head + motion.shift;
-        motion.turn = before * own[b];
+        motion.turn = before * turns[b] * twists[b];
         motion.move = before * head + moved_before - motion.turn * head;
     }
     return motions;

@@ -25,7 +25,8 @@ using Pose = std::vector<Move>;
 ///              {"bone": "branch2.1", "turn": 20, "axis": [1, 0, 0]},
 ///              {"near": [0.1, 0.8, 0.2], "twist": 30, "stretch": 1.2}]}
 /// `near` means the branch nearest to that point. Angles are in degrees, counter-clockwise seen
-/// against the axis.
+/// against the axis. Of one bone twists come first, about itself at rest; then turns and bends in
+/// the order given.
 /// @throws InputError that names the file and the move.
 Pose read_pose(std::string_view bytes, const std::string& name, const Armature& armature);
 

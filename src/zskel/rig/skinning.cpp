@@ -4,6 +4,7 @@
 #include <limits>
 
 #include "zskel/core/parallel.h"
+#include "zskel/mesh/surface.h"
 
 namespace zskel {
 namespace {
@@ -15,11 +16,8 @@ DVec3 stretched(const DVec3& point, const Armature& armature,
     for (const Influence& i : influences) {
         const Bone& bone = armature.bones[i.bone];
         const BoneMotion& motion = motions[i.bone];
-        const DVec3 along = bone.tail - bone.head;
-        const double square = glm::dot(along, along);
-        const double share = square > 0.0 ? glm::dot(point - bone.head, along) / square : 0.0;
-        out += (motion.shift + along * (share * (motion.stretch - 1.0))) *
-               static_cast<double>(i.weight);
+        const double longer = share_along(bone, point) * (motion.stretch - 1.0);
+        out += (motion.shift + (bone.tail - bone.head) * longer) * static_cast<double>(i.weight);
     }
     return out;
 }
@@ -61,10 +59,25 @@ DVec3 by_dual_quaternion(const DVec3& point, const std::vector<Influence>& influ
     return sum.turn * point + DVec3(move.x, move.y, move.z);
 }
 
-double volume_of(const Mesh& mesh, const std::vector<DVec3>& positions) {
+// The triangles of a closed surface, all of them turned outward; none when it is open.
+std::vector<Triangle> closed_triangles(const Mesh& mesh) {
+    const PreparedSurface prepared = prepare_surface(mesh);
+    const auto& closed = prepared.component_closed;
+    if (std::find(closed.begin(), closed.end(), false) != closed.end()) return {};
+    std::vector<std::uint32_t> vertex_at(prepared.surface.positions.size(), 0);
+    for (std::uint32_t v = 0; v < mesh.positions.size(); ++v) {
+        if (prepared.surface_vertex[v] != kNone) vertex_at[prepared.surface_vertex[v]] = v;
+    }
+    std::vector<Triangle> out;
+    for (const Triangle& t : prepared.surface.triangles)
+        out.emplace_back(vertex_at[t.x], vertex_at[t.y], vertex_at[t.z]);
+    return out;
+}
+
+double volume_of(const std::vector<Triangle>& triangles, const std::vector<DVec3>& positions) {
     const DVec3& from = positions.front();
     double volume = 0.0;
-    for (const Triangle& t : mesh.triangles) {
+    for (const Triangle& t : triangles) {
         volume += glm::dot(positions[t.x] - from,
                            glm::cross(positions[t.y] - from, positions[t.z] - from)) /
                   6.0;
@@ -92,8 +105,9 @@ DeformMeasures measure_deformation(const Mesh& mesh, const std::vector<DVec3>& d
                                    const std::vector<std::vector<Influence>>& weights,
                                    const std::vector<BoneMotion>& motions) {
     DeformMeasures out;
-    const double before = volume_of(mesh, mesh.positions);
-    if (before != 0.0) out.volume_change = volume_of(mesh, deformed) / before - 1.0;
+    const std::vector<Triangle> closed = closed_triangles(mesh);
+    const double before = volume_of(closed, mesh.positions);
+    if (before > 0.0) out.volume_change = volume_of(closed, deformed) / before - 1.0;
 
     std::vector<double> stretches;
     for (const Triangle& t : mesh.triangles) {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "zskel/rig/pose.h"
@@ -21,10 +22,10 @@ std::vector<DVec3> deform(const Mesh& mesh, const Armature& armature,
 
 /// What a deformation did to a mesh.
 struct DeformMeasures {
-    double volume_change = 0.0;        ///< share of the volume, signed; 0 where there is none
-    std::size_t flipped_faces = 0;     ///< that look away from where their bones turned them
-    double edge_stretch_median = 1.0;  ///< length over the length at rest
-    double edge_stretch_p99 = 1.0;     ///< the larger of that and its inverse, at 99 % of the edges
+    std::optional<double> volume_change;  ///< share of the volume, signed; none on open surfaces
+    std::size_t flipped_faces = 0;        ///< that look away from where their bones turned them
+    double edge_stretch_median = 1.0;     ///< length over the length at rest
+    double edge_stretch_p99 = 1.0;  ///< the larger of that and its inverse, at 99 % of the edges
     double edge_stretch_worst = 1.0;
     double farthest = 0.0;  ///< that a vertex moved, in diagonals of the bounding box
 };

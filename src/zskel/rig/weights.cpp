@@ -5,8 +5,6 @@
 #include <Eigen/SparseCholesky>
 #include <algorithm>
 #include <array>
-#include <cmath>
-#include <limits>
 #include <mutex>
 
 #include "zskel/core/error.h"
@@ -17,15 +15,8 @@ namespace zskel {
 namespace {
 
 constexpr double kMostCotangent = 100.0;  // needles do not couple more strongly than that
+constexpr double kLeastRadius = 1e-6;     // in the unit cube
 constexpr double kLeastArea = 1e-9;       // of a vertex, in shares of the mean one
-
-double distance_to(const Bone& bone, const DVec3& point) {
-    const DVec3 along = bone.tail - bone.head;
-    const double square = glm::dot(along, along);
-    const double share =
-        square > 0.0 ? glm::clamp(glm::dot(point - bone.head, along) / square, 0.0, 1.0) : 0.0;
-    return glm::distance(point, bone.head + along * share);
-}
 
 std::uint32_t nearest_bone(const Armature& armature, const std::vector<std::uint32_t>& bones,
                            const DVec3& point) {
@@ -115,6 +106,7 @@ std::vector<std::vector<Influence>> skin_weights(const Mesh& mesh, const Skeleto
         throw InputError(fmt::format("{}: it has {} vertices, its skeleton knows of {}", mesh.name,
                                      mesh.positions.size(), graph.vertex_node.size()));
     }
+    if (armature.bones.empty()) throw InputError(mesh.name + ": its skeleton has no bones");
     const PreparedSurface prepared = prepare_surface(mesh);
     const Surface& surface = prepared.surface;
     std::vector<std::uint32_t> all(armature.bones.size());
@@ -136,7 +128,8 @@ std::vector<std::vector<Influence>> skin_weights(const Mesh& mesh, const Skeleto
         thickest = std::max(thickest, radii[place]);
     }
     // A node on the surface itself, as open meshes have, must not hold without end.
-    for (double& radius : radii) radius = std::max(radius, 1e-3 * thickest);
+    const double least = std::max(1e-3 * thickest, kLeastRadius);
+    for (double& radius : radii) radius = std::max(radius, least);
 
     const Diffusion diffusion(surface, radii, options.smoothing_radii);
     std::vector<std::vector<Influence>> places(first.size());
@@ -153,7 +146,10 @@ std::vector<std::vector<Influence>> skin_weights(const Mesh& mesh, const Skeleto
             }
         }
     });
-    for (std::vector<Influence>& influences : places) keep_strongest(influences, options);
+    for (std::size_t v = 0; v < places.size(); ++v) {
+        if (places[v].empty()) places[v] = {{first[v], 1.0f}};
+        keep_strongest(places[v], options);
+    }
 
     std::vector<std::vector<Influence>> out(mesh.positions.size());
     for (std::size_t v = 0; v < out.size(); ++v) {
