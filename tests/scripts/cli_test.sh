@@ -92,9 +92,7 @@ case_rig() {
     refused 2 '--smoothing' rig cube.obj -o b.glb --smoothing 0
     refused 3 'none.obj' rig none.obj -o b.glb
     refused 5 'nowhere' rig cube.obj -o nowhere/b.glb
-    awk '{ print } $1 == "v" { ++n; place[n] = "v " $2 + 9 " " $3 " " $4 } $1 == "f" { face[++m] = $2 " " $3 " " $4 }
-         END { for (i = 1; i <= n; ++i) print place[i]
-               for (i = 1; i <= m; ++i) { split(face[i], c, " "); print "f", c[1] + n, c[2] + n, c[3] + n } }' cube.obj >two.obj
+    awk -f "$here/two_parts.awk" cube.obj >two.obj
     refused 2 '2 parts' rig two.obj "${quick[@]}" --max-bones 1 -o b.glb
     [[ ! -e b.glb ]] || fail "a file is there"
 }
@@ -603,6 +601,7 @@ if [[ ${1:-} == --list ]]; then
 fi
 zskel=$(realpath "$1")
 models=$(realpath "$2")
+here=$(dirname "$(realpath "$0")")
 shift 2
 scratch=$(mktemp -d)
 trap 'chmod -R u+rwx "$scratch"; rm -rf "$scratch"' EXIT

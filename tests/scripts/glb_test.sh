@@ -10,10 +10,7 @@ trap 'rm -rf "$work"' EXIT
 cd "$work"
 
 # A limb tree, a ring, a lone node, two parts, holes.
-awk '{ print } $1 == "v" { ++n; place[n] = "v " $2 + 9 " " $3 " " $4 } $1 == "f" { face[++m] = $2 " " $3 " " $4 }
-     END { for (i = 1; i <= n; ++i) print place[i]
-           for (i = 1; i <= m; ++i) { split(face[i], c, " "); print "f", c[1] + n, c[2] + n, c[3] + n } }' \
-    "$models/cube_coarse.obj" >two.obj
+awk -f "$here/two_parts.awk" "$models/cube_coarse.obj" >two.obj
 for model in "$models"/{horse,torus,double_torus,cube_coarse,vessels_open}.obj two.obj; do
     "$zskel" -q rig "$model" --backend ray --face-px 6 -o "rig_$(basename "$model" .obj).glb"
 done

@@ -14,8 +14,7 @@ void add_check_command(CLI::App& app, const Common&, Run& run) {
     CLI::App* command =
         app.add_subcommand("check", "Report a model's topology and defects; nothing is changed");
     auto arguments = std::make_shared<Arguments>();
-    command->add_option("model", arguments->model, "OBJ, OFF, PLY or STL; - reads standard input")
-        ->required();
+    add_model_argument(*command, arguments->model);
     command->add_flag("--json", arguments->as_json, "Print JSON");
     command->callback([&run, arguments] {
         run = [arguments] {

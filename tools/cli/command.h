@@ -29,6 +29,9 @@ void add_doctor_command(CLI::App& app, const Common& common, Run& run);
 void add_extract_command(CLI::App& app, const Common& common, Run& run);
 void add_rig_command(CLI::App& app, const Common& common, Run& run);
 
+/// Adds the model, which is needed, as the subcommand's next argument.
+void add_model_argument(CLI::App& command, std::string& model);
+
 /// Adds --backend, --gpu, --face-px and --rays to a subcommand.
 void add_backend_options(CLI::App& command, BackendOptions& options);
 

@@ -77,6 +77,10 @@ void check_outputs(const std::string& model, const std::vector<std::string>& out
     }
 }
 
+void add_model_argument(CLI::App& command, std::string& model) {
+    command.add_option("model", model, "OBJ, OFF, PLY or STL; - reads standard input")->required();
+}
+
 void add_backend_options(CLI::App& command, BackendOptions& options) {
     command
         .add_option_function<std::string>(

@@ -176,8 +176,7 @@ void add_compare_command(CLI::App& app, const Common&, Run& run) {
     CLI::App* command = app.add_subcommand(
         "compare", "Measure one backend's cube maps against another's; exit 6 when out of bounds");
     auto arguments = std::make_shared<Arguments>();
-    command->add_option("model", arguments->model, "OBJ, OFF, PLY or STL; - reads standard input")
-        ->required();
+    add_model_argument(*command, arguments->model);
     command
         ->add_option("--eyes", arguments->eyes,
                      "About this many eyes: starts, mid-paths and ends of seeds")

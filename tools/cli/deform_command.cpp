@@ -44,7 +44,7 @@ ExitCode deform_model(const Arguments& arguments, const Common& common) {
     const std::vector<BoneMotion> motions = bone_motions(rig.armature, pose);
     const std::vector<DVec3> deformed =
         deform(mesh, rig.armature, rig.weights, motions, arguments.skinning);
-    write_output_text(arguments.output, write_obj_mesh(mesh, deformed, common.command));
+    write_output_text(arguments.output, write_obj_mesh(deformed, mesh.triangles, common.command));
     if (common.verbosity >= 0) {
         const std::string text =
             measures_text(mesh, measure_deformation(mesh, deformed, rig.weights, motions));
@@ -58,8 +58,7 @@ ExitCode deform_model(const Arguments& arguments, const Common& common) {
 void add_deform_command(CLI::App& app, const Common& common, Run& run) {
     CLI::App* command = app.add_subcommand("deform", "Pose a mesh by the branches of its skeleton");
     auto arguments = std::make_shared<Arguments>();
-    command->add_option("model", arguments->model, "OBJ, OFF, PLY or STL; - reads standard input")
-        ->required();
+    add_model_argument(*command, arguments->model);
     command
         ->add_option(
             "--pose", arguments->pose,

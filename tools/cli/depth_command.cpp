@@ -50,8 +50,7 @@ void add_depth_command(CLI::App& app, const Common&, Run& run) {
     CLI::App* command =
         app.add_subcommand("depth", "Write the cube map that one eye sees: EXR, or PNG to look at");
     auto arguments = std::make_shared<Arguments>();
-    command->add_option("model", arguments->model, "OBJ, OFF, PLY or STL; - reads standard input")
-        ->required();
+    add_model_argument(*command, arguments->model);
     command->add_option("-o,--output", arguments->output, "map.exr or map.png")->required();
     auto* at =
         command->add_option("--at", arguments->at, "The eye, in the model's coordinates: X,Y,Z")

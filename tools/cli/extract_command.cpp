@@ -257,8 +257,7 @@ void add_method_options(CLI::App& command, Arguments& arguments) {
 void add_extract_command(CLI::App& app, const Common& common, Run& run) {
     CLI::App* command = app.add_subcommand("extract", "Extract the curve skeleton of a mesh");
     auto arguments = std::make_shared<Arguments>();
-    command->add_option("model", arguments->model, "OBJ, OFF, PLY or STL; - reads standard input")
-        ->required();
+    add_model_argument(*command, arguments->model);
     add_output_options(*command, arguments->output);
     command->add_option("--correspondence", arguments->correspondence,
                         "Write a segment from each vertex's node to the vertex too, as CGAL does "

@@ -30,8 +30,7 @@ ExitCode rig(const Arguments& arguments, const Common& common) {
 void add_rig_command(CLI::App& app, const Common& common, Run& run) {
     CLI::App* command = app.add_subcommand("rig", "Bind a mesh to the bones of its skeleton (GLB)");
     auto arguments = std::make_shared<Arguments>();
-    command->add_option("model", arguments->model, "OBJ, OFF, PLY or STL; - reads standard input")
-        ->required();
+    add_model_argument(*command, arguments->model);
     command->add_option("-o,--output", arguments->output, "GLB file; - writes standard output")
         ->required();
     add_rig_options(*command, arguments->rig);

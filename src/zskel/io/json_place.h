@@ -52,6 +52,10 @@ class JsonPlace {
         if (value < 0 || value >= kNone) fail("a whole number from 0 up");
         return static_cast<std::uint32_t>(value);
     }
+    DVec3 point() const {
+        if (array_size() != 3) fail("three numbers");
+        return {at(std::size_t{0}).number(), at(1).number(), at(2).number()};
+    }
     [[noreturn]] void fail(std::string_view expected) const {
         throw InputError(fmt::format(
             "{}: {} is not {}", where_,

@@ -6,6 +6,7 @@
 
 #include "zskel/io/format_io.h"
 #include "zskel/io/tubes.h"
+#include "zskel/io/write_mesh.h"
 #include "zskel/mesh/text_cursor.h"
 
 namespace zskel {
@@ -95,11 +96,8 @@ std::string write_obj_lines(const SkeletonGraph& graph) {
 
 std::string write_obj_tubes(const SkeletonGraph& graph, const std::string& origin) {
     const TubeSurface tubes = tube_surface(graph);
-    std::string text = fmt::format("# {}\n# curve skeleton, its branches as tubes\n", origin);
-    for (const DVec3& p : tubes.positions) text += vertex_line(p);
-    for (const Triangle& t : tubes.triangles)
-        text += fmt::format("f {} {} {}\n", t.x + 1, t.y + 1, t.z + 1);
-    return text;
+    return write_obj_mesh(tubes.positions, tubes.triangles,
+                          origin + "\n# curve skeleton, its branches as tubes");
 }
 
 SkeletonFile read_obj_lines(std::string_view bytes, const std::string& name) {

@@ -42,11 +42,8 @@ SkeletonFile read_ours(const Place& root, const std::string& name) {
         const Place entry = nodes.at(i);
         if (entry.at("id").integer() != static_cast<std::int64_t>(i))
             entry.at("id").fail("the node's place in the list");
-        const Place position = entry.at("position");
-        if (position.array_size() != 3) position.fail("three numbers");
         SkeletonGraph::Node node;
-        for (int axis = 0; axis < 3; ++axis)
-            node.position[axis] = position.at(static_cast<std::size_t>(axis)).number();
+        node.position = entry.at("position").point();
         node.radius = entry.at("radius").number();
         read_extras(entry, node);
         entry.check(builder.add_node(node));

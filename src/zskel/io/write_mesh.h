@@ -1,15 +1,15 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
-#include "zskel/mesh/mesh.h"
+#include "zskel/core/types.h"
 
 namespace zskel {
 
-/// Wavefront OBJ: the positions in the mesh's order, every digit that they have, and its triangles.
-/// @param positions  one a vertex of the mesh.
-/// @param origin     says what made the file.
-std::string write_obj_mesh(const Mesh& mesh, const std::vector<DVec3>& positions,
-                           const std::string& origin);
+/// Wavefront OBJ: positions with every digit that they have, and triangles between them.
+/// @param origin  says what made the file.
+std::string write_obj_mesh(const std::vector<DVec3>& positions,
+                           const std::vector<Triangle>& triangles, const std::string& origin);
 
 }  // namespace zskel

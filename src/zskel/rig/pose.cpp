@@ -18,14 +18,6 @@ constexpr double kLeastStretch = 1e-3;
 constexpr std::array<const char*, 3> kTargets = {"branch", "bone", "near"};
 constexpr std::array<const char*, 5> kDone = {"turn", "bend", "twist", "stretch", "axis"};
 
-DVec3 vector_at(const JsonPlace& place) {
-    if (place.array_size() != 3) place.fail("three numbers");
-    DVec3 out;
-    for (int axis = 0; axis < 3; ++axis)
-        out[axis] = place.at(static_cast<std::size_t>(axis)).number();
-    return out;
-}
-
 std::vector<std::uint32_t> bones_of_branch(const Armature& armature, std::uint32_t branch) {
     std::vector<std::uint32_t> out;
     for (std::uint32_t b = 0; b < armature.bones.size(); ++b) {
@@ -57,7 +49,7 @@ std::vector<std::uint32_t> bones_meant(const JsonPlace& entry, const Armature& a
     const bool is_near = entry.has("near");
     const JsonPlace place = entry.at(is_near ? "near" : "branch");
     const std::uint32_t branch =
-        is_near ? branch_nearest_to(armature, vector_at(place)) : place.count();
+        is_near ? branch_nearest_to(armature, place.point()) : place.count();
     std::vector<std::uint32_t> bones = bones_of_branch(armature, branch);
     if (branch == kNone || bones.empty())
         place.fail(is_near ? "near a branch with bones" : "the number of a branch with bones");
@@ -91,7 +83,7 @@ Move read_move(const JsonPlace& entry, const Armature& armature) {
     }
     if (entry.has("turn") || entry.has("bend")) {
         const JsonPlace axis = entry.at("axis");
-        move.axis = vector_at(axis);
+        move.axis = axis.point();
         const double largest =
             std::max({std::abs(move.axis.x), std::abs(move.axis.y), std::abs(move.axis.z)});
         if (!(largest > 0.0)) axis.fail("a direction");

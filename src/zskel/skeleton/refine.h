@@ -28,8 +28,8 @@ struct RefineOptions {
         0.7;  ///< unless that is shorter than this share of it, or longer by a radius
 };
 
-/// Settings by which branches keep to the shape's own bends (the paper's active contour): twice as
-/// much centring and half as much smoothing as the defaults.
+/// Settings by which branches keep to the shape's own bends (the paper's active contour): more
+/// centring and less smoothing than by default.
 RefineOptions active_contour();
 
 struct RefineReport {
