@@ -116,7 +116,7 @@ TEST_CASE("skeleton_json: holds nodes, edges, vertex map, statistics and provena
     Provenance provenance;
     provenance.options = options;
     provenance.model = "a \"quoted\"\nname.obj";
-    const auto json = nlohmann::json::parse(skeleton_json(result, provenance, {true, true}));
+    const auto json = nlohmann::json::parse(skeleton_json(result, provenance, {true, true, {}}));
     CHECK(json["format"] == "zskel-skeleton");
     CHECK(json["version"] == 1);
     CHECK(json["provenance"]["options"]["method"] == "paper");

@@ -8,6 +8,7 @@
 #include <limits>
 #include <numbers>
 
+#include "zskel/mesh/bounds.h"
 #include "zskel/mesh/solid.h"
 #include "zskel/visibility/cube_map.h"
 #include "zskel/visibility/surface_query.h"
@@ -276,13 +277,7 @@ double mean_one_way(const SkeletonGraph& from, const SkeletonGraph& to) {
 }
 
 double diagonal_of(const Surface& surface) {
-    Vec3 low(kInfinity);
-    Vec3 high(-kInfinity);
-    for (const Vec3& p : surface.positions) {
-        low = glm::min(low, p);
-        high = glm::max(high, p);
-    }
-    return surface.world_from_model.length_to_model(static_cast<double>(glm::distance(low, high)));
+    return surface.world_from_model.length_to_model(box_of(surface.positions).diagonal());
 }
 
 }  // namespace

@@ -122,6 +122,43 @@ case_deform() {
     [[ ! -e b.obj ]] || fail "a file is there"
 }
 
+case_reconstruct() {
+    local quick=(--backend cpu)
+    cp "$models/torus.obj" torus.obj
+    run 0 extract torus.obj "${quick[@]}" -o torus.json --keep-maps torus.maps
+    run 0 reconstruct torus.json --original torus.obj --json -o a.ply
+    is_json out || fail "no JSON"
+    run 0 reconstruct torus.maps --original torus.obj --json -o b.ply --points points.ply
+    grep -q '"share_seen": 1.0' out || fail "not all was seen: $(cat out)"
+    /usr/bin/cmp -s <(tail -c 100000 a.ply) <(tail -c 100000 b.ply) || fail "the same maps give another surface"
+    run 0 check b.ply
+    grep -q 'closed, manifold, oriented, genus 1,' out || fail "no watertight ring: $(cat out)"
+    grep -aq '^property float nz' points.ply || fail "points without normals"
+    run 0 -q reconstruct torus.obj "${quick[@]}" --map-px 16 --voxel 0.02 -o -
+    [[ ! -s err ]] || fail "not quiet"
+    grep -q '^f ' out || fail "no OBJ on standard output"
+    mkdir away && run 0 extract torus.obj "${quick[@]}" -o away/torus.json --keep-maps torus.maps
+    run 0 reconstruct away/torus.json --voxel 0.02 -o c.ply
+    # Parts that do not hang together stay so.
+    awk -f "$here/two_parts.awk" "$models/y.obj" >two.obj
+    run 0 reconstruct two.obj "${quick[@]}" --voxel 0.05 -o two.ply
+    run 0 check two.ply
+    grep -q ' 2 components' out || fail "two parts became others: $(head -n 1 out)"
+    refused 2 '--output' reconstruct torus.obj
+    refused 2 '--table' reconstruct torus.maps --table
+    refused 2 '--original' reconstruct torus.obj --original torus.obj -o d.ply
+    refused 2 '.stl' reconstruct torus.maps -o d.stl
+    refused 2 'too small' reconstruct torus.maps --voxel 1e-6 -o d.ply
+    refused 3 'none.maps' reconstruct none.maps -o d.ply
+    run 0 extract torus.obj "${quick[@]}" -o bare.json
+    refused 3 'bare.json: names no visibility maps' reconstruct bare.json -o d.ply
+    head -c 5000 torus.maps >cut.maps
+    cp "$models/y.obj" y.maps
+    refused 3 'cut.maps: byte 20: the packed part is said to have' reconstruct cut.maps -o d.ply
+    refused 3 'y.maps: no visibility maps' reconstruct y.maps -o d.ply
+    [[ ! -e d.ply && ! -e d.stl ]] || fail "a file is there"
+}
+
 case_help() {
     local command
     run 0 --version
@@ -130,7 +167,7 @@ case_help() {
     grep -qF 'Exit codes:' out || fail "the exit codes are not listed"
     local commands
     commands=$(sed -n '/^Subcommands:/,/^$/s/^  \([a-z]\+\) .*/\1/p' out)
-    for command in extract convert rig deform check compare doctor; do
+    for command in extract convert rig deform reconstruct check compare doctor; do
         grep -qx "$command" <<<"$commands" || fail "no subcommand $command"
     done
     for command in $commands; do

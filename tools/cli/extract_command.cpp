@@ -4,13 +4,16 @@
 
 #include <charconv>
 #include <cstdio>
+#include <filesystem>
 #include <nlohmann/json.hpp>
 
 #include "command.h"
 #include "depth_files.h"
+#include "node_maps.h"
 #include "skeleton_output.h"
 #include "zskel/core/log.h"
 #include "zskel/extract.h"
+#include "zskel/io/map_file.h"
 #include "zskel/io/output_file.h"
 #include "zskel/io/picture.h"
 #include "zskel/io/skeleton_json.h"
@@ -30,6 +33,8 @@ struct Arguments {
     PictureOptions picture_options;
     std::string depth_folder;
     std::vector<std::uint32_t> depth_vertices;
+    std::string maps;
+    int map_px = kDefaultMapPx;
     JsonParts parts;
     ExtractOptions extract;
     BackendOptions backend;
@@ -114,6 +119,13 @@ void draw_pictures(const Arguments& arguments, const ExtractResult& result, gl::
               draw_paths(context, result.surface, paths, nodes, arguments.picture_options), title);
 }
 
+// The path of a file as the folder of another has it.
+std::string seen_from(const std::string& other, const std::string& path) {
+    if (other == "-") return path;
+    return std::filesystem::proximate(path, std::filesystem::absolute(other).parent_path())
+        .generic_string();
+}
+
 void check_method_options(const Arguments& arguments) {
     const bool is_paper = arguments.extract.method == Method::Paper;
     for (const CLI::Option* option : is_paper ? arguments.newton_only : arguments.paper_only) {
@@ -134,7 +146,7 @@ ExitCode extract(const Arguments& given, const Common& common) {
         throw UsageError(fmt::format("--with-seeds and --with-paths go with json, not with {}",
                                      info_of(format).name));
     }
-    check_outputs(arguments.model, {arguments.output.path, arguments.correspondence,
+    check_outputs(arguments.model, {arguments.output.path, arguments.correspondence, arguments.maps,
                                     arguments.picture, arguments.picture_paths});
     const Mesh mesh = read_mesh(arguments.model);
     // A picture that cannot be drawn is known before the work starts, not after.
@@ -158,6 +170,12 @@ ExitCode extract(const Arguments& given, const Common& common) {
                            arguments.extract, *backend);
     }
     if (picture_context) draw_pictures(arguments, result, *picture_context);
+    if (!arguments.maps.empty()) {
+        const VisibilityMaps maps =
+            maps_of(mesh, result.graph, arguments.backend, arguments.map_px);
+        write_output_text(arguments.maps, write_visibility_maps(maps));
+        arguments.parts.maps = seen_from(arguments.output.path, arguments.maps);
+    }
     write_results(arguments, format, mesh, result, provenance);
     log_info("{} nodes, {} edges; {} evaluations of {} seeds in {:.2f} s by {}",
              result.graph.nodes.size(), result.graph.edges.size(), result.statistics.evaluations,
@@ -272,6 +290,10 @@ void add_extract_command(CLI::App& app, const Common& common, Run& run) {
         ->type_name("NAME");
     add_backend_options(*command, arguments->backend);
     add_method_options(*command, *arguments);
+    command->add_option("--keep-maps", arguments->maps,
+                        "Write what every node sees into this file: zskel reconstruct rebuilds the "
+                        "surface of it");
+    add_map_px_option(*command, arguments->map_px);
     command->add_flag("--with-seeds", arguments->parts.seeds,
                       "Add every seed's start, end, state and steps to the JSON");
     command->add_flag("--with-paths", arguments->parts.paths, "Add every seed's path too");

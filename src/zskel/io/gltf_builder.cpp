@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "zskel/core/error.h"
+#include "zskel/io/little_endian.h"
 
 namespace zskel {
 namespace {
@@ -15,11 +16,6 @@ constexpr std::uint32_t kJsonChunk = 0x4E4F534A;  // "JSON"
 constexpr std::uint32_t kBinChunk = 0x004E4942;   // "BIN"
 
 /// Appends a value's bytes, the lowest first.
-void append(std::string& bytes, std::uint32_t value) {
-    for (int shift = 0; shift < 32; shift += 8)
-        bytes += static_cast<char>(static_cast<unsigned char>(value >> shift));
-}
-
 std::string base64(std::string_view bytes) {
     constexpr std::string_view kDigits =
         "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
@@ -75,7 +71,7 @@ std::size_t GltfBuilder::add_scalars(const std::vector<float>& values) {
 
 std::size_t GltfBuilder::add_indices(const std::vector<std::uint32_t>& values) {
     const std::size_t begin = bytes_.size();
-    for (const std::uint32_t value : values) append(bytes_, value);
+    for (const std::uint32_t value : values) append_little_endian(bytes_, value);
     return add_accessor(begin, BufferTarget::IndexData, ComponentType::Uint32, "SCALAR",
                         values.size());
 }
@@ -83,8 +79,8 @@ std::size_t GltfBuilder::add_indices(const std::vector<std::uint32_t>& values) {
 std::size_t GltfBuilder::add_joints(const std::vector<std::array<std::uint16_t, 4>>& joints) {
     const std::size_t begin = bytes_.size();
     for (const std::array<std::uint16_t, 4>& four : joints) {
-        append(bytes_, four[0] | static_cast<std::uint32_t>(four[1]) << 16);
-        append(bytes_, four[2] | static_cast<std::uint32_t>(four[3]) << 16);
+        append_little_endian(bytes_, four[0] | static_cast<std::uint32_t>(four[1]) << 16);
+        append_little_endian(bytes_, four[2] | static_cast<std::uint32_t>(four[3]) << 16);
     }
     return add_accessor(begin, BufferTarget::VertexData, ComponentType::Uint16, "VEC4",
                         joints.size());
@@ -129,7 +125,7 @@ std::string GltfBuilder::finish(Json document, const std::string& origin,
 std::size_t GltfBuilder::add_floats(const std::vector<float>& values, const char* type,
                                     std::size_t count, std::optional<BufferTarget> target) {
     const std::size_t begin = bytes_.size();
-    for (const float value : values) append(bytes_, std::bit_cast<std::uint32_t>(value));
+    for (const float value : values) append_little_endian(bytes_, value);
     return add_accessor(begin, target, ComponentType::Float32, type, count);
 }
 
@@ -150,18 +146,18 @@ std::size_t GltfBuilder::add_accessor(std::size_t begin, std::optional<BufferTar
 std::string GltfBuilder::glb(std::string json) const {
     json.resize((json.size() + 3) / 4 * 4, ' ');
     std::string out;
-    append(out, kGlbMagic);
-    append(out, 2);
+    append_little_endian(out, kGlbMagic);
+    append_little_endian(out, std::uint32_t{2});
     if (json.size() + bytes_.size() > std::numeric_limits<std::uint32_t>::max() - 64)
         throw InputError("a GLB file cannot hold more than 4 GiB");
     const std::size_t bin_size = bytes_.empty() ? 0 : 8 + bytes_.size();
-    append(out, static_cast<std::uint32_t>(12 + 8 + json.size() + bin_size));
-    append(out, static_cast<std::uint32_t>(json.size()));
-    append(out, kJsonChunk);
+    append_little_endian(out, static_cast<std::uint32_t>(12 + 8 + json.size() + bin_size));
+    append_little_endian(out, static_cast<std::uint32_t>(json.size()));
+    append_little_endian(out, kJsonChunk);
     out += json;
     if (bytes_.empty()) return out;
-    append(out, static_cast<std::uint32_t>(bytes_.size()));
-    append(out, kBinChunk);
+    append_little_endian(out, static_cast<std::uint32_t>(bytes_.size()));
+    append_little_endian(out, kBinChunk);
     return out + bytes_;
 }
 

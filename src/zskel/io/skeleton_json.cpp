@@ -242,6 +242,7 @@ std::string skeleton_json(const ExtractResult& result, const Provenance& provena
     members.emplace_back("warnings", rows(Json(result.warnings)));
     members.emplace_back("provenance",
                          text(provenance_json(provenance, result.surface.world_from_model)));
+    if (!parts.maps.empty()) members.emplace_back("visibility_maps", text(Json(parts.maps)));
     if (parts.seeds || parts.paths) members.emplace_back("seeds", rows(seeds_json(result, parts)));
     return object(members);
 }

@@ -19,6 +19,8 @@ struct Provenance {
 struct JsonParts {
     bool seeds = false;  ///< adds every seed's start, end, state, steps and node
     bool paths = false;  ///< and its path, where it was kept
+    std::string maps;    ///< the file of the nodes' visibility maps, as seen from the skeleton's
+                         ///< folder; empty: none was written
 };
 
 /// The skeleton as JSON (`"format": "zskel-skeleton"`, `"version": 1`), positions in the model's

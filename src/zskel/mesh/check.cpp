@@ -30,16 +30,6 @@ struct Welded {
     std::vector<std::uint32_t> source;  ///< the input's triangle of every triangle
 };
 
-Box empty_box() {
-    return {DVec3(std::numeric_limits<double>::max()),
-            DVec3(std::numeric_limits<double>::lowest())};
-}
-
-void extend(Box& box, const DVec3& point) {
-    box.low = glm::min(box.low, point);
-    box.high = glm::max(box.high, point);
-}
-
 class MeshChecker {
   public:
     explicit MeshChecker(const Mesh& mesh) : mesh_(mesh) {}
@@ -213,7 +203,6 @@ class MeshChecker {
     }
 
     void measure_components() {
-        report_.box = empty_box();
         for (const TopologyComponent& part : topology_.components) {
             ComponentReport component;
             component.triangles = part.triangle_count;
@@ -223,7 +212,6 @@ class MeshChecker {
             component.is_oriented = part.is_oriented;
             component.is_orientable = part.is_orientable;
             component.genus = part.genus;
-            component.box = empty_box();
             report_.components.push_back(component);
         }
         measure_boxes();
@@ -236,11 +224,11 @@ class MeshChecker {
             Box& box = report_.components[topology_.component_of_triangle[t]].box;
             for (int k = 0; k < 3; ++k) {
                 const DVec3& position = welded_.places[welded_.triangles[t][k]];
-                extend(box, position);
-                extend(report_.box, position);
+                box.add(position);
+                report_.box.add(position);
             }
         }
-        if (welded_.triangles.empty()) report_.box = {};
+        if (welded_.triangles.empty()) report_.box = {DVec3(0.0), DVec3(0.0)};
     }
 
     /// Six times a component's volume is the sum of the determinants of its triangles, taken from

@@ -6,15 +6,10 @@
 #include <vector>
 
 #include "zskel/core/types.h"
+#include "zskel/mesh/bounds.h"
 #include "zskel/mesh/mesh.h"
 
 namespace zskel {
-
-/// Axis-aligned, in model space.
-struct Box {
-    DVec3 low{0.0};
-    DVec3 high{0.0};
-};
 
 /// Triangles that hang together by edges.
 struct ComponentReport {
@@ -60,7 +55,7 @@ struct MeshReport {
     std::vector<ComponentReport> components;
     std::optional<int> genus;           ///< sum over components; none when one has none
     std::optional<double> volume;       ///< sum over closed components; none without one
-    Box box;                            ///< of what triangles use
+    Box box;                            ///< of what triangles use; 0 to 0 without any
     std::vector<Defect> defects;        ///< only those found; empty for a proper solid
     std::vector<std::string> warnings;  ///< from reading
 };

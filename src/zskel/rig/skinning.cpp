@@ -4,6 +4,7 @@
 #include <limits>
 
 #include "zskel/core/parallel.h"
+#include "zskel/mesh/bounds.h"
 #include "zskel/mesh/surface.h"
 
 namespace zskel {
@@ -139,14 +140,9 @@ DeformMeasures measure_deformation(const Mesh& mesh, const std::vector<DVec3>& d
         out.edge_stretch_worst = at(1.0);
     }
 
-    DVec3 low = mesh.positions.front();
-    DVec3 high = low;
-    for (std::size_t v = 0; v < deformed.size(); ++v) {
-        low = glm::min(low, mesh.positions[v]);
-        high = glm::max(high, mesh.positions[v]);
+    for (std::size_t v = 0; v < deformed.size(); ++v)
         out.farthest = std::max(out.farthest, glm::distance(deformed[v], mesh.positions[v]));
-    }
-    out.farthest /= std::max(glm::distance(low, high), std::numeric_limits<double>::min());
+    out.farthest /= std::max(box_of(mesh.positions).diagonal(), std::numeric_limits<double>::min());
     return out;
 }
 

@@ -1,0 +1,22 @@
+#pragma once
+
+#include <vector>
+
+#include "zskel/mesh/mesh.h"
+#include "zskel/rebuild/recall.h"
+
+namespace zskel {
+
+/// How much of a surface its nodes' maps hold.
+/// @param within  a place counts as seen when a map's plane passes it this near, model units.
+/// @return share of the surface's area.
+double share_seen(const Mesh& mesh, const VisibilityMaps& maps, double within);
+
+/// Distances between two surfaces, sampled evenly by area on each, model units.
+struct SurfaceDistances {
+    double mean = 0.0;       ///< from both, the larger of the two means
+    double hausdorff = 0.0;  ///< the largest found, either way
+};
+SurfaceDistances distances_between(const Mesh& a, const Mesh& b);
+
+}  // namespace zskel

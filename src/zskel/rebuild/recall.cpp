@@ -1,0 +1,226 @@
+// The surface from the maps alone (the paper's section 6): signed distances to the planes that
+// nodes saw, averaged as range images are (Curless and Levoy 1996), but only where a node's texels
+// tell something, and with what any node saw past taken as inside: a solid is the union of what its
+// nodes see.
+#include "zskel/rebuild/recall.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <unordered_map>
+
+#include "zskel/core/lattice_hash.h"
+#include "zskel/core/parallel.h"
+#include "zskel/visibility/cube_map.h"
+
+namespace zskel {
+namespace {
+
+// Four texels whose depths differ by more than this factor are taken to lie on two surfaces: what
+// is farther is not believed.
+constexpr float kMostDepthRatio = 1.5f;
+// Within so many texels of a plane a sighting tells where the surface is; farther before it, that
+// there is none.
+constexpr double kNearFootprints = 1.5;
+
+int face_of(const DVec3& direction) {
+    const DVec3 size = glm::abs(direction);
+    const int axis = size.x >= size.y && size.x >= size.z ? 0 : size.y >= size.z ? 1 : 2;
+    return 2 * axis + (direction[axis] < 0.0 ? 1 : 0);
+}
+
+// In a face's own axes: right, up, forward.
+DVec3 in_face(const DVec3& direction, int face) {
+    const CubeFace& axes = cube_faces()[static_cast<std::size_t>(face)];
+    return {glm::dot(direction, DVec3(axes.right)), glm::dot(direction, DVec3(axes.up)),
+            glm::dot(direction, DVec3(axes.forward))};
+}
+
+DVec3 from_face(const DVec3& local, int face) {
+    const CubeFace& axes = cube_faces()[static_cast<std::size_t>(face)];
+    return DVec3(axes.right) * local.x + DVec3(axes.up) * local.y + DVec3(axes.forward) * local.z;
+}
+
+}  // namespace
+
+RecallMap::RecallMap(const NodeMap& node, int face_px) : eye_(node.eye), face_px_(face_px) {
+    const auto side = static_cast<std::size_t>(face_px + 2);
+    inverse_depth_.assign(6 * side * side, 0.0f);
+    float nearest = std::numeric_limits<float>::infinity();
+    for (const float d : node.distance) {
+        nearest = std::min(nearest, d);
+        if (std::isfinite(d)) farthest_ = std::max(farthest_, static_cast<double>(d));
+    }
+    for (std::size_t i = 0; i < node.distance.size(); ++i) {
+        const Texel at = texel_at(i, face_px);
+        const float d = std::isfinite(node.distance[i]) ? node.distance[i] : nearest;
+        const auto length = static_cast<float>(glm::length(texel_direction(at, face_px)));
+        if (std::isfinite(d) && d > 0.0f) texel(at.face, at.column, at.row) = length / d;
+    }
+    fill_border();
+}
+
+float RecallMap::texel(int face, int column, int row) const {
+    const int side = face_px_ + 2;
+    return inverse_depth_[static_cast<std::size_t>((face * side + row + 1) * side + column + 1)];
+}
+float& RecallMap::texel(int face, int column, int row) {
+    const int side = face_px_ + 2;
+    return inverse_depth_[static_cast<std::size_t>((face * side + row + 1) * side + column + 1)];
+}
+
+// From the faces beside: half a texel over a face's edge lies half a texel within the next one.
+void RecallMap::fill_border() {
+    const double px = face_px_;
+    const auto fill = [&](int face, int column, int row) {
+        const DVec3 direction =
+            from_face({(2 * column + 1) / px - 1.0, (2 * row + 1) / px - 1.0, 1.0}, face);
+        const int other = face_of(direction);
+        const DVec3 local = in_face(direction, other);
+        const auto place = [&](double share) {
+            return std::clamp(0.5 * px * (share / local.z + 1.0) - 0.5, 0.0, px - 1.0);
+        };
+        const double x = place(local.x);
+        const double y = place(local.y);
+        const int i = std::min(static_cast<int>(x), face_px_ - 2);
+        const int j = std::min(static_cast<int>(y), face_px_ - 2);
+        const double fx = x - i;
+        const double fy = y - j;
+        const double inverse =
+            (1.0 - fy) * ((1.0 - fx) * texel(other, i, j) + fx * texel(other, i + 1, j)) +
+            fy * ((1.0 - fx) * texel(other, i, j + 1) + fx * texel(other, i + 1, j + 1));
+        texel(face, column, row) = static_cast<float>(inverse * local.z);
+    };
+    for (int face = 0; face < 6; ++face) {
+        for (int i = 0; i < face_px_; ++i) {
+            fill(face, i, -1);
+            fill(face, i, face_px_);
+            fill(face, -1, i);
+            fill(face, face_px_, i);
+        }
+        const int last = face_px_ - 1;
+        for (const int c : {-1, face_px_}) {
+            for (const int r : {-1, face_px_}) {
+                // Three faces meet there: the plane through the three texels beside.
+                const int i = std::clamp(c, 0, last);
+                const int j = std::clamp(r, 0, last);
+                texel(face, c, r) = texel(face, i, r) + texel(face, c, j) - texel(face, i, j);
+            }
+        }
+    }
+}
+
+Sighting RecallMap::look_at(const DVec3& place) const {
+    const DVec3 direction = place - eye_;
+    if (direction == DVec3(0.0)) return {farthest_, 0.0, DVec3(0.0)};
+    const int face = face_of(direction);
+    const DVec3 local = in_face(direction, face);
+    const double depth = local.z;
+    const double texel_width = 2.0 / face_px_;
+    const double x = (local.x / depth + 1.0) / texel_width - 0.5;
+    const double y = (local.y / depth + 1.0) / texel_width - 0.5;
+    const int i = std::clamp(static_cast<int>(std::floor(x)), -1, face_px_ - 1);
+    const int j = std::clamp(static_cast<int>(std::floor(y)), -1, face_px_ - 1);
+    const float q00 = texel(face, i, j);
+    const float q10 = texel(face, i + 1, j);
+    const float q01 = texel(face, i, j + 1);
+    const float q11 = texel(face, i + 1, j + 1);
+    const float most = std::max({q00, q10, q01, q11});
+    const float least = std::min({q00, q10, q01, q11});
+    // a X + b Y + c Z = 1 in the face's axes.
+    DVec3 plane(0.0, 0.0, most);
+    if (most <= least * kMostDepthRatio) {
+        const double fx = x - i;
+        const double fy = y - j;
+        const double a = ((q10 - q00) * (1.0 - fy) + (q11 - q01) * fy) / texel_width;
+        const double b = ((q01 - q00) * (1.0 - fx) + (q11 - q10) * fx) / texel_width;
+        const double q =
+            (q00 * (1.0 - fx) + q10 * fx) * (1.0 - fy) + (q01 * (1.0 - fx) + q11 * fx) * fy;
+        plane = DVec3(a, b, q - (a * local.x + b * local.y) / depth);
+    }
+    const double steepness = glm::length(plane);
+    if (!(steepness > 0.0)) return {-glm::length(direction), 0.0, DVec3(0.0)};
+    return {(1.0 - glm::dot(plane, local)) / steepness, texel_width * depth,
+            from_face(plane / steepness, face)};
+}
+
+Recall::Recall(const VisibilityMaps& maps) : face_px_(maps.face_px) {
+    maps_.reserve(maps.nodes.size());
+    for (const NodeMap& node : maps.nodes) maps_.emplace_back(node, maps.face_px);
+}
+
+double Recall::inside(const DVec3& place, const std::vector<std::uint32_t>& among) const {
+    double surely = -std::numeric_limits<double>::infinity();
+    double nearest = surely;
+    double sum = 0.0;
+    double weights = 0.0;
+    for (const std::uint32_t m : among) {
+        const Sighting seen = maps_[m].look_at(place);
+        const double doubt = kNearFootprints * seen.footprint;
+        surely = std::max(surely, seen.inside - doubt);
+        nearest = std::max(nearest, seen.inside);
+        if (std::abs(seen.inside) > doubt) continue;
+        const double weight = 1.0 / (seen.footprint * seen.footprint);
+        sum += weight * seen.inside;
+        weights += weight;
+    }
+    if (surely > 0.0) return surely;
+    return weights > 0.0 ? sum / weights : nearest;
+}
+
+std::vector<std::uint32_t> Recall::maps_about(const DVec3& middle, double half_side) const {
+    std::vector<std::uint32_t> out;
+    const double reach = std::sqrt(3.0) * half_side;
+    for (std::uint32_t m = 0; m < maps_.size(); ++m) {
+        if (glm::distance(maps_[m].eye(), middle) - reach > maps_[m].farthest()) continue;
+        for (int corner = 0; corner < 27; ++corner) {
+            const DVec3 step(corner % 3 - 1, corner / 3 % 3 - 1, corner / 9 - 1);
+            const Sighting seen = maps_[m].look_at(middle + half_side * step);
+            if (seen.inside < -kNearFootprints * seen.footprint - half_side) continue;
+            out.push_back(m);
+            break;
+        }
+    }
+    return out;
+}
+
+std::vector<Surfel> Recall::surfels() const {
+    std::vector<std::vector<Surfel>> found(maps_.size());
+    const auto texels = static_cast<std::size_t>(6 * face_px_ * face_px_);
+    parallel_for(maps_.size(), 4, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t m = begin; m < end; ++m) {
+            for (std::size_t t = 0; t < texels; ++t) {
+                const DVec3 ray = texel_direction(texel_at(t, face_px_), face_px_);
+                // The plane in that direction, and where the ray meets it.
+                const DVec3 probe = maps_[m].eye() + ray * maps_[m].farthest();
+                const Sighting seen = maps_[m].look_at(probe);
+                const double facing = glm::dot(seen.outward, ray);
+                if (!(facing > 0.0)) continue;
+                const double way = maps_[m].farthest() + seen.inside / facing;
+                found[m].push_back({maps_[m].eye() + ray * way, seen.outward,
+                                    2.0 / face_px_ * way * glm::length(ray) / facing});
+            }
+        }
+    });
+    std::vector<Surfel> out;
+    for (const std::vector<Surfel>& of_map : found)
+        out.insert(out.end(), of_map.begin(), of_map.end());
+    return out;
+}
+
+std::vector<Surfel> merge_surfels(const std::vector<Surfel>& surfels, double cell) {
+    std::unordered_map<glm::i64vec3, std::size_t, LatticeHash> known;
+    std::vector<Surfel> out;
+    for (const Surfel& s : surfels) {
+        const glm::i64vec3 at(glm::floor(s.position / cell));
+        const auto [place, is_new] = known.try_emplace(at, out.size());
+        if (is_new) {
+            out.push_back(s);
+        } else if (s.spacing < out[place->second].spacing) {
+            out[place->second] = s;
+        }
+    }
+    return out;
+}
+
+}  // namespace zskel

@@ -1,0 +1,243 @@
+#include "zskel/rebuild/watertight.h"
+
+#include <fmt/format.h>
+#include <openvdb/openvdb.h>
+#include <openvdb/tools/SignedFloodFill.h>
+#include <openvdb/tools/VolumeToMesh.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <map>
+#include <set>
+#include <unordered_set>
+
+#include "zskel/core/disjoint_sets.h"
+#include "zskel/core/error.h"
+#include "zskel/core/lattice_hash.h"
+#include "zskel/core/parallel.h"
+#include "zskel/mesh/bounds.h"
+#include "zskel/mesh/winding.h"
+
+namespace zskel {
+namespace {
+
+constexpr int kBlock = 8;  // voxels along a block: OpenVDB's leaves
+constexpr std::size_t kBlockVoxels = kBlock * kBlock * kBlock;
+constexpr double kMostVoxelsAsked = 4096.0;
+constexpr double kLeastVoid = 8.0;  // voxels that a void must have
+
+// Where the sampling grid stands: voxel v is at low + v * side.
+struct Lattice {
+    DVec3 low{0.0};
+    double side = 0.0;
+    DVec3 place(const DVec3& voxel) const { return low + voxel * side; }
+};
+
+struct Block {
+    glm::ivec3 at{0};           // in blocks
+    bool has_surface = false;   // or may have: not farther outside or inside than its samples
+    std::vector<float> values;  // voxels to the surface, inside below 0, as OpenVDB has it; one for
+                                // all, or one a voxel
+};
+
+constexpr auto kFar = static_cast<float>(kBlock);
+
+Block sample_block(const Recall& recall, const Lattice& lattice, const glm::ivec3& at) {
+    const DVec3 first(at * kBlock);
+    const double half = 0.5 * kBlock;
+    const DVec3 middle = lattice.place(first + half);
+    const std::vector<std::uint32_t> among = recall.maps_about(middle, half * lattice.side);
+    if (among.empty()) return {at, false, {kFar}};
+    // Farther inside than its samples lie apart: nothing of the surface in between.
+    const double apart = half * lattice.side;
+    double least = kInfinity;
+    for (int corner = 0; corner < 27 && least > apart; ++corner) {
+        const DVec3 step(corner % 3 - 1, corner / 3 % 3 - 1, corner / 9 - 1);
+        least = std::min(least, recall.inside(middle + apart * step, among));
+    }
+    if (least > apart) return {at, false, {-kFar}};
+    Block block{at, false, {}};
+    block.values.reserve(kBlockVoxels);
+    for (int x = 0; x < kBlock; ++x) {  // OpenVDB's order in a leaf: z fastest
+        for (int y = 0; y < kBlock; ++y) {
+            for (int z = 0; z < kBlock; ++z) {
+                const double inside = recall.inside(lattice.place(first + DVec3(x, y, z)), among);
+                block.has_surface = block.has_surface || inside > 0.0;
+                block.values.push_back(
+                    std::clamp(static_cast<float>(-inside / lattice.side), -kFar, kFar));
+            }
+        }
+    }
+    return block;
+}
+
+// From the blocks that hold surfels on, wherever a block has surface on to those beside it.
+std::vector<Block> sample_blocks(const Recall& recall, const Lattice& lattice,
+                                 const std::vector<Surfel>& surfels) {
+    std::unordered_set<glm::i64vec3, LatticeHash> known;
+    std::vector<glm::ivec3> next;
+    const auto want = [&](const glm::ivec3& at) {
+        if (known.emplace(at).second) next.push_back(at);
+    };
+    for (const Surfel& s : surfels)
+        want(glm::ivec3(glm::floor((s.position - lattice.low) / (lattice.side * kBlock))));
+    std::vector<Block> blocks;
+    while (!next.empty()) {
+        const std::vector<glm::ivec3> wanted = std::exchange(next, {});
+        std::vector<Block> sampled(wanted.size());
+        parallel_for(wanted.size(), 4, [&](std::size_t begin, std::size_t end) {
+            for (std::size_t i = begin; i < end; ++i)
+                sampled[i] = sample_block(recall, lattice, wanted[i]);
+        });
+        for (Block& block : sampled) {
+            if (block.has_surface) {
+                for (int n = 0; n < 27; ++n)
+                    want(block.at + glm::ivec3(n % 3 - 1, n / 3 % 3 - 1, n / 9 - 1));
+            }
+            blocks.push_back(std::move(block));
+        }
+    }
+    return blocks;
+}
+
+// Every block becomes a leaf: OpenVDB gives what lies between leaves the sign of their corners, and
+// blocks with surface have others beside them on all sides.
+openvdb::FloatGrid::Ptr grid_of(const std::vector<Block>& blocks) {
+    openvdb::FloatGrid::Ptr grid = openvdb::FloatGrid::create(kFar);
+    grid->setGridClass(openvdb::GRID_LEVEL_SET);
+    for (const Block& block : blocks) {
+        auto* leaf = grid->tree().touchLeaf(
+            openvdb::Coord(block.at.x * kBlock, block.at.y * kBlock, block.at.z * kBlock));
+        for (openvdb::Index v = 0; v < kBlockVoxels; ++v)
+            leaf->setValueOn(v, block.values[block.values.size() == 1 ? 0 : v]);
+    }
+    openvdb::tools::signedFloodFill(grid->tree());
+    return grid;
+}
+
+RebuiltMesh mesh_of(const openvdb::FloatGrid& grid, const Lattice& lattice) {
+    std::vector<openvdb::Vec3s> points;
+    std::vector<openvdb::Vec4I> quads;
+    openvdb::tools::volumeToMesh(grid, points, quads);
+    RebuiltMesh out;
+    out.voxel = lattice.side;
+    for (const openvdb::Vec3s& p : points)
+        out.positions.push_back(lattice.place({p.x(), p.y(), p.z()}));
+    for (const openvdb::Vec4I& q : quads) {
+        // OpenVDB winds them clockwise.
+        const std::array<std::uint32_t, 4> c{q[3], q[2], q[1], q[0]};
+        const auto apart = [&](std::size_t a, std::size_t b) {
+            return glm::distance(out.positions[c[a]], out.positions[c[b]]);
+        };
+        if (apart(0, 2) <= apart(1, 3)) {
+            out.triangles.insert(out.triangles.end(), {{c[0], c[1], c[2]}, {c[0], c[2], c[3]}});
+        } else {
+            out.triangles.insert(out.triangles.end(), {{c[0], c[1], c[3]}, {c[1], c[2], c[3]}});
+        }
+    }
+    return out;
+}
+
+// What no node can have meant: parts without a node in them, since every node sees from the
+// inside, and voids of few voxels, where sightings were at odds.
+class Specks {
+  public:
+    Specks(const RebuiltMesh& mesh, const Lattice& lattice, const VisibilityMaps& maps)
+        : parts_(mesh.positions.size()) {
+        for (const Triangle& t : mesh.triangles) {
+            parts_.unite(t.x, t.y);
+            parts_.unite(t.x, t.z);
+        }
+        // In voxels, so that floats and volumes have one scale.
+        std::vector<Vec3> places;
+        for (const DVec3& p : mesh.positions) places.emplace_back((p - lattice.low) / lattice.side);
+        std::map<std::uint32_t, std::vector<Triangle>> of_part;
+        for (const Triangle& t : mesh.triangles) of_part[parts_.find(t.x)].push_back(t);
+        for (const auto& [part, triangles] : of_part) {
+            Box box;
+            double volume = 0.0;
+            for (const Triangle& t : triangles) {
+                for (int k = 0; k < 3; ++k) box.add(DVec3(places[t[k]]));
+                volume +=
+                    glm::dot(DVec3(places[t.x]), glm::cross(DVec3(places[t.y] - places[t.x]),
+                                                            DVec3(places[t.z] - places[t.x]))) /
+                    6.0;
+            }
+            const bool is_kept =
+                volume > 0.0
+                    ? std::any_of(maps.nodes.begin(), maps.nodes.end(),
+                                  [&](const NodeMap& node) {
+                                      const DVec3 eye = (node.eye - lattice.low) / lattice.side;
+                                      return box.holds(eye) &&
+                                             winding_number(places, triangles, eye) > 0.5;
+                                  })
+                    : volume < -kLeastVoid;
+            if (is_kept) kept_.insert(part);
+        }
+    }
+    bool holds(const Triangle& t) { return !kept_.contains(parts_.find(t.x)); }
+
+  private:
+    DisjointSets parts_;
+    std::set<std::uint32_t> kept_;
+};
+
+RebuiltMesh without_specks(const RebuiltMesh& mesh, const Lattice& lattice,
+                           const VisibilityMaps& maps) {
+    Specks specks(mesh, lattice, maps);
+    RebuiltMesh out;
+    out.voxel = mesh.voxel;
+    std::vector<std::uint32_t> number(mesh.positions.size(), kNone);
+    for (const Triangle& t : mesh.triangles) {
+        if (specks.holds(t)) continue;
+        Triangle& added = out.triangles.emplace_back();
+        for (int k = 0; k < 3; ++k) {
+            if (number[t[k]] == kNone) {
+                number[t[k]] = static_cast<std::uint32_t>(out.positions.size());
+                out.positions.push_back(mesh.positions[t[k]]);
+            }
+            added[k] = number[t[k]];
+        }
+    }
+    return out;
+}
+
+// The radius that a twentieth of the maps fall below: of the thinnest parts.
+double thin_radius(const VisibilityMaps& maps) {
+    std::vector<double> radii;
+    for (const NodeMap& node : maps.nodes) {
+        radii.push_back(*std::min_element(node.distance.begin(), node.distance.end()));
+    }
+    const auto place = radii.begin() + static_cast<std::ptrdiff_t>(radii.size() / 20);
+    std::nth_element(radii.begin(), place, radii.end());
+    return *place;
+}
+
+}  // namespace
+
+RebuiltMesh rebuild_surface(const VisibilityMaps& maps, const RebuildOptions& options) {
+    const Recall recall(maps);
+    const std::vector<Surfel> all = recall.surfels();
+    if (all.empty()) throw InputError("no map saw any surface");
+    Lattice lattice;
+    Box box;
+    for (const Surfel& s : all) box.add(s.position);
+    lattice.low = box.low;
+    const double longest = box.longest();
+    lattice.side =
+        options.voxel_model > 0.0
+            ? options.voxel_model
+            : std::clamp(0.5 * thin_radius(maps), longest / kMostVoxels, longest / kFewestVoxels);
+    if (longest > lattice.side * kMostVoxelsAsked) {
+        throw UsageError(
+            fmt::format("a voxel of {} is too small: the whole is {} long, which may "
+                        "be at most {} voxels",
+                        lattice.side, longest, kMostVoxelsAsked));
+    }
+    openvdb::initialize();
+    const auto grid = grid_of(sample_blocks(recall, lattice, all));
+    return without_specks(mesh_of(*grid, lattice), lattice, maps);
+}
+
+}  // namespace zskel

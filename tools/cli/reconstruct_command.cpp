@@ -1,0 +1,227 @@
+// zskel reconstruct: the surface recalled from what the skeleton's nodes see (the paper's section
+// 6).
+#include <fmt/format.h>
+
+#include <cstdio>
+#include <filesystem>
+#include <nlohmann/json.hpp>
+
+#include "command.h"
+#include "node_maps.h"
+#include "zskel/core/input_file.h"
+#include "zskel/core/log.h"
+#include "zskel/extract.h"
+#include "zskel/io/json_place.h"
+#include "zskel/io/map_file.h"
+#include "zskel/io/output_file.h"
+#include "zskel/io/write_mesh.h"
+#include "zskel/mesh/bounds.h"
+#include "zskel/mesh/make_mesh.h"
+#include "zskel/mesh/read_mesh.h"
+#include "zskel/rebuild/fidelity.h"
+#include "zskel/rebuild/watertight.h"
+
+namespace zskel::cli {
+namespace {
+
+constexpr double kSeenWithin = 0.003;  // of the diagonal
+constexpr std::array<int, 4> kTableSizes = {8, 16, 32, 64};
+constexpr std::array<std::size_t, 3> kTableThinnings = {1, 2, 4};
+
+struct Arguments {
+    std::string input;
+    std::string output;
+    std::string points;
+    std::string original;
+    int map_px = kDefaultMapPx;
+    RebuildOptions rebuild;
+    bool table = false;
+    bool as_json = false;
+    ExtractOptions extract;
+    BackendOptions backend;
+};
+
+bool ends_with(const std::string& path, std::string_view extension) {
+    return std::string_view(path).ends_with(extension);
+}
+
+// The file that a skeleton's JSON names, which lies where that says.
+std::string maps_file_of(const std::string& path) try {
+    const std::string bytes = read_input_file(path, "a skeleton (JSON)");
+    const auto data = nlohmann::json::parse(bytes);
+    const JsonPlace place(data, path);
+    if (!place.has("visibility_maps")) {
+        throw InputError(fmt::format(
+            "{}: names no visibility maps; zskel extract --keep-maps FILE writes them", path));
+    }
+    const JsonPlace maps = place.at("visibility_maps");
+    if (!maps.value().is_string()) maps.fail("a file's name");
+    return std::filesystem::path(path).parent_path() / maps.value().get<std::string>();
+} catch (const nlohmann::json::exception& error) {
+    throw InputError(fmt::format("{}: no JSON: {}", path, error.what()));
+}
+
+// Ends and junctions, and of the nodes between them every so many.
+VisibilityMaps thinned(const VisibilityMaps& maps, const SkeletonGraph& graph, std::size_t every) {
+    VisibilityMaps out;
+    out.face_px = maps.face_px;
+    std::vector<bool> is_kept(graph.nodes.size(), false);
+    for (const Branch& branch : find_branches(graph)) {
+        for (std::size_t i = 0; i < branch.nodes.size(); ++i) {
+            if (i % every == 0 || i + 1 == branch.nodes.size()) is_kept[branch.nodes[i]] = true;
+        }
+    }
+    const std::vector<std::uint32_t> degrees = node_degrees(graph);
+    for (std::size_t n = 0; n < is_kept.size(); ++n) {
+        if (is_kept[n] || degrees[n] == 0) out.nodes.push_back(maps.nodes[n]);
+    }
+    return out;
+}
+
+// What is known of a surface that was rebuilt, beside the one that was seen.
+struct Row {
+    int map_px = 0;
+    std::size_t nodes = 0;
+    double voxel = 0.0;
+    std::size_t faces = 0;
+    double seen = 0.0;
+    double mean = 0.0;  // of the diagonal
+    double hausdorff = 0.0;
+};
+
+Row measure(const Mesh& original, const VisibilityMaps& maps, const RebuiltMesh& rebuilt) {
+    const double diagonal = box_of(original.positions).diagonal();
+    Mesh mesh;
+    mesh.name = "the rebuilt surface";
+    mesh.positions = rebuilt.positions;
+    mesh.triangles = rebuilt.triangles;
+    const SurfaceDistances distances = distances_between(original, mesh);
+    return {maps.face_px,
+            maps.nodes.size(),
+            rebuilt.voxel / diagonal,
+            rebuilt.triangles.size(),
+            share_seen(original, maps, kSeenWithin * diagonal),
+            distances.mean / diagonal,
+            distances.hausdorff / diagonal};
+}
+
+std::string text_of(const std::vector<Row>& rows) {
+    std::string out = fmt::format("{:>6} {:>6} {:>8} {:>8} {:>8} {:>8} {:>10}\n", "texels", "nodes",
+                                  "voxel %", "faces", "seen %", "mean %", "hausdorff %");
+    for (const Row& row : rows) {
+        out += fmt::format("{:>6} {:>6} {:>8.3f} {:>8} {:>8.2f} {:>8.3f} {:>10.2f}\n", row.map_px,
+                           row.nodes, 100 * row.voxel, row.faces, 100 * row.seen, 100 * row.mean,
+                           100 * row.hausdorff);
+    }
+    return out;
+}
+
+std::string json_of(const std::vector<Row>& rows) {
+    nlohmann::ordered_json list = nlohmann::ordered_json::array();
+    for (const Row& row : rows) {
+        list.push_back({{"map_px", row.map_px},
+                        {"nodes", row.nodes},
+                        {"voxel_diagonals", row.voxel},
+                        {"faces", row.faces},
+                        {"share_seen", row.seen},
+                        {"mean_distance_diagonals", row.mean},
+                        {"hausdorff_diagonals", row.hausdorff}});
+    }
+    return list.dump(1) + "\n";
+}
+
+ExitCode reconstruct(const Arguments& arguments, const Common& common) {
+    if (arguments.output.empty() && !arguments.table)
+        throw UsageError("give --output, or --table for measures alone");
+    const bool from_json = ends_with(arguments.input, ".json");
+    const bool from_maps = from_json || ends_with(arguments.input, ".maps");
+    if (arguments.table && from_maps)
+        throw UsageError("--table needs the model itself: it looks again with other maps");
+    check_outputs(arguments.input, {arguments.output, arguments.points});
+    std::optional<Mesh> original;
+    VisibilityMaps maps;
+    SkeletonGraph graph;
+    BackendOptions backend = arguments.backend;
+    if (from_maps) {
+        const std::string file = from_json ? maps_file_of(arguments.input) : arguments.input;
+        maps = read_visibility_maps(read_input_file(file, "visibility maps"), file);
+        if (!arguments.original.empty()) original = read_mesh(arguments.original);
+    } else {
+        if (!arguments.original.empty())
+            throw UsageError("--original goes with maps; here the model is at hand");
+        original = read_mesh(arguments.input);
+        backend = backend_options_for(*original, arguments.extract, backend);
+        graph = extract_skeleton(*original, arguments.extract, *open_backend(backend)).graph;
+        maps = maps_of(*original, graph, backend, arguments.map_px);
+    }
+    std::vector<Row> rows;
+    if (!arguments.output.empty()) {
+        const RebuiltMesh rebuilt = rebuild_surface(maps, arguments.rebuild);
+        if (!arguments.points.empty()) {
+            std::vector<DVec3> positions;
+            std::vector<DVec3> normals;
+            for (const Surfel& s : merge_surfels(Recall(maps).surfels(), rebuilt.voxel)) {
+                positions.push_back(s.position);
+                normals.push_back(s.normal);
+            }
+            write_output_text(arguments.points,
+                              write_ply_points(positions, normals, common.command));
+        }
+        write_output_text(arguments.output, write_mesh_as(arguments.output, rebuilt.positions,
+                                                          rebuilt.triangles, common.command));
+        if (original && !arguments.table) rows.push_back(measure(*original, maps, rebuilt));
+    }
+    if (arguments.table) {
+        for (const int px : kTableSizes) {
+            const VisibilityMaps all = maps_of(*original, graph, backend, px);
+            for (const std::size_t every : kTableThinnings) {
+                const VisibilityMaps some = thinned(all, graph, every);
+                rows.push_back(measure(*original, some, rebuild_surface(some, arguments.rebuild)));
+            }
+        }
+    }
+    if (arguments.as_json) {
+        print(json_of(rows));
+    } else if (!rows.empty() && common.verbosity >= 0) {
+        const std::string text = text_of(rows);
+        std::fputs(text.c_str(), stderr);
+    }
+    return ExitCode::Ok;
+}
+
+}  // namespace
+
+void add_reconstruct_command(CLI::App& app, const Common& common, Run& run) {
+    CLI::App* command = app.add_subcommand(
+        "reconstruct", "Rebuild a surface from what the nodes of its skeleton see");
+    auto arguments = std::make_shared<Arguments>();
+    command
+        ->add_option("input", arguments->input,
+                     "Visibility maps (.maps), a skeleton that names them (.json), or a model")
+        ->required();
+    command->add_option("-o,--output", arguments->output, "PLY or OBJ file: a watertight surface");
+    command->add_option("--points", arguments->points,
+                        "Write the points that the nodes see too, merged, with normals (PLY)");
+    add_map_px_option(*command, arguments->map_px);
+    command
+        ->add_option("--voxel", arguments->rebuild.voxel_model,
+                     "Side of the cubes that the surface is sampled in, in the model's units; 0: "
+                     "by the thinnest parts")
+        ->capture_default_str()
+        ->check(length_or_zero());
+    command->add_option("--original", arguments->original,
+                        "With maps: the model to measure against");
+    command->add_flag("--table", arguments->table,
+                      "Measure with maps of 8 to 64 texels, of all nodes and of fewer");
+    command->add_flag("--json", arguments->as_json, "Print the measures as JSON");
+    add_backend_options(*command, arguments->backend);
+    command->footer(
+        "Examples:\n  zskel reconstruct horse.obj -o rebuilt.ply\n"
+        "  zskel extract horse.obj -o horse.json --keep-maps horse.maps\n"
+        "  zskel reconstruct horse.json --original horse.obj -o rebuilt.ply");
+    command->callback([&run, &common, arguments] {
+        run = [&common, arguments] { return reconstruct(*arguments, common); };
+    });
+}
+
+}  // namespace zskel::cli
