@@ -159,6 +159,44 @@ case_reconstruct() {
     [[ ! -e d.ply && ! -e d.stl ]] || fail "a file is there"
 }
 
+case_match() {
+    local quick=(--backend ray --face-px 6) name
+    mkdir all
+    for name in y torus; do
+        cp "$models/$name.obj" .
+        run 0 extract "$name.obj" "${quick[@]}" -o "all/$name.json"
+    done
+    run 0 convert all/y.json -o all/same.graphml
+    run 0 match all/y.json all/same.graphml
+    [[ $(cat out) == 0 ]] || fail "a shape is not like itself: $(cat out)"
+    run 0 match y.obj "${quick[@]}" all/torus.json --json
+    is_json out || fail "no JSON"
+    /usr/bin/python3 -c 'import json; d = json.load(open("out")); assert d["distance"] > 0.1 and len(d["nodes"]) == 48' ||
+        fail "no distance with matched nodes"
+    run 0 match --index all --query y.obj "${quick[@]}" --neighbours 2
+    [[ $(wc -l <out) == 2 && $(head -n 1 out) == *all/[sy]* && $(tail -n 1 out) == *all/[sy]* ]] ||
+        fail "its own are not nearest: $(cat out)"
+    run 0 match --index all --matrix all.csv --dendrogram all.svg
+    [[ $(wc -l <all.csv) == 4 ]] || fail "no matrix of three: $(cat all.csv)"
+    /usr/bin/python3 -c 'import xml.dom.minidom as m; m.parse("all.svg")' || fail "no XML"
+    run 0 match all/y.json all/torus.json all/same.graphml
+    [[ $(head -n 1 out) == shape,all/y.json,all/torus.json,all/same.graphml ]] || fail "no CSV: $(cat out)"
+    echo '{' >all/bad.json
+    run 0 match --index all --query all/y.json --json
+    is_json out || fail "no JSON"
+    grep -q 'left out: all/bad.json' err || fail "nothing said about what cannot be read"
+    refused 2 '--index' match
+    refused 2 'alone' match all/y.json
+    refused 2 '--index' match all/y.json --index all
+    refused 2 '--query' match all/y.json all/torus.json --query y.obj
+    refused 2 'all/y.json' match all/y.json all/torus.json --matrix all/y.json
+    refused 3 'none.json' match all/y.json none.json
+    refused 3 'nowhere' match --index nowhere --query y.obj
+    mkdir empty
+    refused 3 'holds no skeleton' match --index empty --query y.obj
+    refused 3 'all/bad.json' match all/bad.json all/y.json
+}
+
 case_help() {
     local command
     run 0 --version
@@ -167,7 +205,7 @@ case_help() {
     grep -qF 'Exit codes:' out || fail "the exit codes are not listed"
     local commands
     commands=$(sed -n '/^Subcommands:/,/^$/s/^  \([a-z]\+\) .*/\1/p' out)
-    for command in extract convert rig deform reconstruct check compare doctor; do
+    for command in extract convert rig deform reconstruct match check compare doctor; do
         grep -qx "$command" <<<"$commands" || fail "no subcommand $command"
     done
     for command in $commands; do

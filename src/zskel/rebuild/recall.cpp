@@ -44,7 +44,7 @@ DVec3 from_face(const DVec3& local, int face) {
 }  // namespace
 
 RecallMap::RecallMap(const NodeMap& node, int face_px) : eye_(node.eye), face_px_(face_px) {
-    const auto side = static_cast<std::size_t>(face_px + 2);
+    const std::size_t side = static_cast<std::size_t>(face_px) + 2;
     inverse_depth_.assign(6 * side * side, 0.0f);
     float nearest = std::numeric_limits<float>::infinity();
     for (const float d : node.distance) {
@@ -62,11 +62,13 @@ RecallMap::RecallMap(const NodeMap& node, int face_px) : eye_(node.eye), face_px
 
 float RecallMap::texel(int face, int column, int row) const {
     const int side = face_px_ + 2;
-    return inverse_depth_[static_cast<std::size_t>((face * side + row + 1) * side + column + 1)];
+    const int at = (face * side + row + 1) * side + column + 1;
+    return inverse_depth_[static_cast<std::size_t>(at)];
 }
 float& RecallMap::texel(int face, int column, int row) {
     const int side = face_px_ + 2;
-    return inverse_depth_[static_cast<std::size_t>((face * side + row + 1) * side + column + 1)];
+    const int at = (face * side + row + 1) * side + column + 1;
+    return inverse_depth_[static_cast<std::size_t>(at)];
 }
 
 // From the faces beside: half a texel over a face's edge lies half a texel within the next one.
@@ -186,7 +188,8 @@ std::vector<std::uint32_t> Recall::maps_about(const DVec3& middle, double half_s
 
 std::vector<Surfel> Recall::surfels() const {
     std::vector<std::vector<Surfel>> found(maps_.size());
-    const auto texels = static_cast<std::size_t>(6 * face_px_ * face_px_);
+    const auto side = static_cast<std::size_t>(face_px_);
+    const std::size_t texels = 6 * side * side;
     parallel_for(maps_.size(), 4, [&](std::size_t begin, std::size_t end) {
         for (std::size_t m = begin; m < end; ++m) {
             for (std::size_t t = 0; t < texels; ++t) {

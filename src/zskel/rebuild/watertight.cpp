@@ -155,30 +155,29 @@ class Specks {
         std::map<std::uint32_t, std::vector<Triangle>> of_part;
         for (const Triangle& t : mesh.triangles) of_part[parts_.find(t.x)].push_back(t);
         for (const auto& [part, triangles] : of_part) {
-            Box box;
-            double volume = 0.0;
-            for (const Triangle& t : triangles) {
-                for (int k = 0; k < 3; ++k) box.add(DVec3(places[t[k]]));
-                volume +=
-                    glm::dot(DVec3(places[t.x]), glm::cross(DVec3(places[t.y] - places[t.x]),
-                                                            DVec3(places[t.z] - places[t.x]))) /
-                    6.0;
-            }
-            const bool is_kept =
-                volume > 0.0
-                    ? std::any_of(maps.nodes.begin(), maps.nodes.end(),
-                                  [&](const NodeMap& node) {
-                                      const DVec3 eye = (node.eye - lattice.low) / lattice.side;
-                                      return box.holds(eye) &&
-                                             winding_number(places, triangles, eye) > 0.5;
-                                  })
-                    : volume < -kLeastVoid;
-            if (is_kept) kept_.insert(part);
+            if (is_kept(places, triangles, lattice, maps)) kept_.insert(part);
         }
     }
     bool holds(const Triangle& t) { return !kept_.contains(parts_.find(t.x)); }
 
   private:
+    static bool is_kept(const std::vector<Vec3>& places, const std::vector<Triangle>& part,
+                        const Lattice& lattice, const VisibilityMaps& maps) {
+        Box box;
+        double volume = 0.0;
+        for (const Triangle& t : part) {
+            for (int k = 0; k < 3; ++k) box.add(DVec3(places[t[k]]));
+            volume += glm::dot(DVec3(places[t.x]), glm::cross(DVec3(places[t.y] - places[t.x]),
+                                                              DVec3(places[t.z] - places[t.x]))) /
+                      6.0;
+        }
+        if (volume <= 0.0) return volume < -kLeastVoid;
+        return std::any_of(maps.nodes.begin(), maps.nodes.end(), [&](const NodeMap& node) {
+            const DVec3 eye = (node.eye - lattice.low) / lattice.side;
+            return box.holds(eye) && winding_number(places, part, eye) > 0.5;
+        });
+    }
+
     DisjointSets parts_;
     std::set<std::uint32_t> kept_;
 };
