@@ -9,6 +9,7 @@
 #include "support/shapes.h"
 #include "zskel/core/error.h"
 #include "zskel/mesh/read_mesh.h"
+#include "zskel/mesh/self_intersections.h"
 #include "zskel/rig/skinning.h"
 
 using namespace zskel;
@@ -228,6 +229,87 @@ TEST_CASE("read_pose: by branch, by bone, by the nearest point") {
     CHECK(pose[2].stretch == 1.25);
 }
 
+TEST_CASE("read_pose: when moves begin and end") {
+    const Pose pose = read_pose(R"({"moves": [
+        {"branch": 0, "bend": 90, "axis": [0, 0, 1]},
+        {"branch": 0, "stretch": 4, "begin": 2},
+        {"bone": "branch0.1", "twist": 40, "begin": 1, "end": 1}]})",
+                                "a.json", two_bones());
+    CHECK(duration(pose) == 3.0);
+    CHECK(duration({}) == 0.0);
+    const auto at = [&](double seconds, double bend, double stretch, double twist) {
+        INFO(seconds);
+        const Pose now = pose_at(pose, seconds);
+        CHECK(now[0].bend == doctest::Approx(kRight * bend));
+        CHECK(now[1].stretch == doctest::Approx(stretch));
+        CHECK(now[2].twist == doctest::Approx(kRight * twist));
+    };
+    at(0.0, 0.0, 1.0, 0.0);
+    at(0.5, 0.5, 1.0, 0.0);
+    at(0.999999, 1.0, 1.0, 0.0);
+    at(1.0, 1.0, 1.0, 4.0 / 9.0);  // at once
+    at(2.5, 1.0, 2.0, 4.0 / 9.0);
+    at(3.0, 1.0, 4.0, 4.0 / 9.0);
+    at(9.0, 1.0, 4.0, 4.0 / 9.0);
+}
+
+TEST_CASE("deform_skeleton: nodes go with their bones") {
+    SkeletonGraph graph;
+    for (const double x : {0.0, 0.5, 1.0, 2.0}) graph.nodes.push_back({{x, 0, 0}, 0.1, 0, 0.0});
+    graph.edges = {{0, 1}, {1, 2}, {2, 3}};
+    Armature armature = two_bones();
+    armature.node_bones = {{0, 1}, {1}, {1, 2}, {2}};
+    Move stretch = move_of({1});
+    stretch.stretch = 2.0;
+    Move turn = move_of({2});
+    turn.turn = kRight;
+    const SkeletonGraph posed =
+        deform_skeleton(graph, armature, bone_motions(armature, {stretch, turn}));
+    CHECK(posed.edges.size() == 3);
+    CHECK(glm::distance(posed.nodes[0].position, DVec3(0, 0, 0)) < 1e-12);
+    CHECK(glm::distance(posed.nodes[1].position, DVec3(1, 0, 0)) < 1e-12);
+    CHECK(glm::distance(posed.nodes[2].position, DVec3(2, 0, 0)) < 1e-12);
+    CHECK(glm::distance(posed.nodes[3].position, DVec3(2, 1, 0)) < 1e-12);
+}
+
+TEST_CASE("measure_deformation: faces that pass through others are counted, and those at rest") {
+    Mesh mesh = test::cube();
+    const auto count = static_cast<std::uint32_t>(mesh.positions.size());
+    const std::vector<Triangle> once = mesh.triangles;
+    for (const Triangle& t : once) test::add_triangle(mesh, t.x + count, t.y + count, t.z + count);
+    for (std::uint32_t v = 0; v < count; ++v) {
+        const DVec3 there = mesh.positions[v] * 0.9 + DVec3(3, 0, 0);
+        mesh.positions.push_back(there);
+    }
+    const std::vector<std::vector<Influence>> weights(mesh.positions.size(), {{1, 1.0f}});
+    const auto rest = bone_motions(two_bones(), {});
+    std::vector<DVec3> nearer = mesh.positions;
+    for (std::size_t v = count; v < nearer.size(); ++v) nearer[v].x -= 2.5;
+    const DeformMeasures m = measure_deformation(mesh, nearer, weights, rest);
+    CHECK(m.crossing_at_rest == 0);
+    // One side of the first, two triangles, is cut by the four sides of the second round it.
+    CHECK(m.crossing_faces == 10);
+    Mesh crossed = mesh;
+    crossed.positions = nearer;
+    CHECK(measure_deformation(crossed, mesh.positions, weights, rest).crossing_at_rest == 10);
+    CHECK(measure_deformation(crossed, mesh.positions, weights, rest).crossing_faces == 0);
+}
+
+TEST_CASE(
+    "count_crossing_triangles: at a common corner, but not at a common edge or in one plane") {
+    const std::vector<DVec3> p = {{0, 0, 0},     {2, 0, 0},  {0, 2, 0}, {0.5, 0.5, -1},
+                                  {0.5, 0.5, 1}, {1, -1, 0}, {2, 2, 0}};
+    const auto crossing = [&](const std::vector<Triangle>& triangles) {
+        return count_crossing_triangles(p, triangles);
+    };
+    CHECK(crossing({}) == 0);
+    CHECK(crossing({{0, 1, 2}, {0, 3, 4}}) == 2);
+    CHECK(crossing({{0, 1, 2}, {1, 2, 4}}) == 0);
+    CHECK(crossing({{0, 1, 2}, {0, 5, 6}}) == 0);
+    CHECK(crossing({{0, 1, 2}, {5, 3, 4}}) == 2);
+    CHECK(crossing({{0, 1, 2}, {5, 3, 4}, {6, 3, 4}}) == 3);
+}
+
 TEST_CASE("read_pose: what is wrong is named, with its place") {
     const auto refused = [](const char* text, const char* piece) {
         INFO(text);
@@ -247,6 +329,9 @@ TEST_CASE("read_pose: what is wrong is named, with its place") {
     refused(R"({"moves": [{"branch": 0, "bend": "x", "axis": [0, 0, 1]}]})", "bend");
     refused(R"({"moves": [{"branch": 0, "stretch": 0}]})", "from 0.001 to 1000");
     refused(R"({"moves": [{"branch": 0, "stretch": 1e308}]})", "from 0.001 to 1000");
+    refused(R"({"moves": [{"branch": 0, "twist": 3, "begin": -1}]})", "begin");
+    refused(R"({"moves": [{"branch": 0, "twist": 3, "begin": 2, "end": 1}]})", "end");
+    refused(R"({"moves": [{"branch": 0, "twist": 3, "end": 1e9}]})", "to 3600");
     Armature ball;
     ball.bones = {two_bones().bones[0]};
     CHECK_THROWS_WITH_AS(

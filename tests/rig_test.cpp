@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <cstring>
+#include <glm/gtc/matrix_transform.hpp>
 #include <nlohmann/json.hpp>
 #include <set>
 
@@ -12,6 +13,7 @@
 #include "zskel/core/error.h"
 #include "zskel/io/rig_glb.h"
 #include "zskel/mesh/read_mesh.h"
+#include "zskel/rig/skinning.h"
 
 using namespace zskel;
 
@@ -293,7 +295,7 @@ TEST_CASE("write_rig_glb: mesh, joints and weights of a tube") {
         axis.vertex_node.push_back(p.z < -0.2 ? 0 : p.z < 0.2 ? 1 : 2);
     const Armature armature = build_armature(axis, {});
     const std::string bytes =
-        write_rig_glb(tube, armature, skin_weights(tube, axis, armature, {}), "a test");
+        write_rig_glb(tube, armature, skin_weights(tube, axis, armature, {}), {}, "a test");
     std::uint32_t size = 0;
     std::memcpy(&size, bytes.data() + 12, 4);
     const auto file = nlohmann::json::parse(bytes.substr(20, size));
@@ -329,5 +331,139 @@ TEST_CASE("write_rig_glb: mesh, joints and weights of a tube") {
     for (const char* name : {"POSITION", "NORMAL", "JOINTS_0", "WEIGHTS_0"}) {
         const auto accessor = attributes[name].get<std::size_t>();
         CHECK(file["accessors"][accessor]["count"] == tube.positions.size());
+    }
+}
+
+namespace {
+
+// A glTF binary, and where its joints' matrices take a point at the key of an animation.
+class PosedGlb {
+  public:
+    PosedGlb(const std::string& bytes, std::size_t key) : bytes_(bytes) {
+        std::uint32_t size = 0;
+        std::memcpy(&size, bytes.data() + 12, 4);
+        file_ = nlohmann::json::parse(bytes.substr(20, size));
+        binary_ = 20 + size + 8;
+        for (const auto& node : file_["nodes"]) {
+            Pose pose;
+            if (node.contains("translation")) pose.place = vector(node["translation"]);
+            if (node.contains("rotation")) pose.turn = quaternion(node["rotation"]);
+            poses_.push_back(pose);
+        }
+        const auto& animation = file_["animations"][0];
+        for (const auto& channel : animation["channels"]) {
+            Pose& pose = poses_[channel["target"]["node"].get<std::size_t>()];
+            const std::string path = channel["target"]["path"];
+            const auto& sampler = animation["samplers"][channel["sampler"].get<std::size_t>()];
+            const int width = path == "rotation" ? 4 : 3;
+            const std::vector<double> v = floats(sampler["output"], key * width, width);
+            if (path == "rotation") {
+                pose.turn = glm::dquat(v[3], v[0], v[1], v[2]);
+            } else {
+                (path == "scale" ? pose.scale : pose.place) = {v[0], v[1], v[2]};
+            }
+        }
+        globals_.resize(poses_.size());
+        for (const auto& node : file_["scenes"][0]["nodes"]) place(node, glm::dmat4(1.0));
+    }
+
+    DVec3 placed(const std::string& joint, const DVec3& point) const {
+        const auto& skin = file_["skins"][0];
+        for (std::size_t j = 0; j < skin["joints"].size(); ++j) {
+            const auto node = skin["joints"][j].get<std::size_t>();
+            if (file_["nodes"][node]["name"] != joint) continue;
+            const std::vector<double> m = floats(skin["inverseBindMatrices"], 16 * j, 16);
+            glm::dmat4 bind;
+            for (int k = 0; k < 16; ++k) bind[k / 4][k % 4] = m[static_cast<std::size_t>(k)];
+            return DVec3(globals_[node] * bind * glm::dvec4(point, 1.0));
+        }
+        FAIL("no joint of this name: ", joint);
+        return {};
+    }
+    double seconds(std::size_t key) const {
+        return floats(file_["animations"][0]["samplers"][0]["input"], key, 1)[0];
+    }
+
+  private:
+    struct Pose {
+        DVec3 place{0.0};
+        glm::dquat turn{1, 0, 0, 0};
+        DVec3 scale{1.0};
+    };
+    static DVec3 vector(const nlohmann::json& v) {
+        return {v[0].get<double>(), v[1].get<double>(), v[2].get<double>()};
+    }
+    static glm::dquat quaternion(const nlohmann::json& v) {
+        return {v[3].get<double>(), v[0].get<double>(), v[1].get<double>(), v[2].get<double>()};
+    }
+    std::vector<double> floats(const nlohmann::json& accessor, std::size_t first,
+                               std::size_t count) const {
+        const auto& view =
+            file_["bufferViews"]
+                 [file_["accessors"][accessor.get<std::size_t>()]["bufferView"].get<std::size_t>()];
+        std::vector<float> values(count);
+        std::memcpy(values.data(),
+                    bytes_.data() + binary_ + view["byteOffset"].get<std::size_t>() + 4 * first,
+                    4 * count);
+        return {values.begin(), values.end()};
+    }
+    void place(const nlohmann::json& number, const glm::dmat4& parent) {
+        const auto n = number.get<std::size_t>();
+        const Pose& pose = poses_[n];
+        globals_[n] =
+            glm::scale(glm::translate(parent, pose.place) * glm::mat4_cast(pose.turn), pose.scale);
+        if (!file_["nodes"][n].contains("children")) return;
+        for (const auto& child : file_["nodes"][n]["children"]) place(child, globals_[n]);
+    }
+
+    std::string bytes_;
+    nlohmann::json file_;
+    std::size_t binary_ = 0;
+    std::vector<Pose> poses_;
+    std::vector<glm::dmat4> globals_;
+};
+
+}  // namespace
+
+TEST_CASE("write_rig_glb: an animation takes joints where deform takes their bones") {
+    Armature armature;
+    armature.bones = {{"root", kNone, kNone, {1, 1, 0}, {1, 1, 0}, 0.1},
+                      {"branch0.0", 0, 0, {1.2, 1, 0}, {2, 1.5, 0}, 0.1},
+                      {"branch0.1", 1, 0, {2, 1.5, 0}, {2.5, 2, 0.5}, 0.1},
+                      {"branch1.0", 0, 1, {1, 0.8, 0}, {1, 0, 0}, 0.1}};
+    Pose pose(3);
+    pose[0].bones = {1, 2};
+    pose[0].axis = {0, 0, 1};
+    pose[0].bend = 1.2;
+    pose[0].stretch = 1.5;
+    pose[1].bones = {2};
+    pose[1].twist = 0.7;
+    pose[1].end = 2.0;
+    pose[2].bones = {0};
+    pose[2].axis = {1, 0, 0};
+    pose[2].turn = 0.4;
+    std::vector<RigKey> keys;
+    for (const double seconds : {0.0, 0.6, 2.0})
+        keys.push_back({seconds, bone_motions(armature, pose_at(pose, seconds))});
+    Mesh mesh;
+    mesh.positions = {{1.3, 1.1, 0.2}, {2.2, 1.6, -0.1}, {1.1, 0.2, 0.1}};
+    mesh.triangles = {{0, 1, 2}};
+    const Weights weights = {{{1, 1.0f}}, {{2, 1.0f}}, {{3, 1.0f}}};
+    const std::string bytes = write_rig_glb(mesh, armature, weights, keys, "a test");
+    const std::array<const char*, 3> joints = {"branch0.0_stretch", "branch0.1_stretch",
+                                               "branch1.0"};
+    for (std::size_t k = 0; k < keys.size(); ++k) {
+        const PosedGlb posed(bytes, k);
+        CHECK(posed.seconds(k) == doctest::Approx(keys[k].seconds));
+        const auto there =
+            deform(mesh, armature, weights, keys[k].motions, Skinning::DualQuaternion);
+        for (std::size_t v = 0; v < 3; ++v)
+            CHECK(glm::distance(posed.placed(joints[v], mesh.positions[v]), there[v]) < 1e-5);
+        // What ends the second bone.
+        Mesh end;
+        end.positions = {armature.bones[2].tail};
+        const auto tail =
+            deform(end, armature, {{{2, 1.0f}}}, keys[k].motions, Skinning::Linear).front();
+        CHECK(glm::distance(posed.placed("branch0.1_end", end.positions[0]), tail) < 1e-5);
     }
 }

@@ -30,6 +30,11 @@ refused() {
     grep -qF -- "$piece" err || fail "the message lacks: $piece"
 }
 is_json() { /usr/bin/python3 -c 'import json, sys; json.load(open(sys.argv[1]))' "$1"; }
+is_png() {
+    local begin
+    begin=$(od -A n -t x1 -N 24 "$1" | tr -d ' \n')
+    [[ $begin == 89504e470d0a1a0a????????49484452$(printf '%08x%08x' "$2" "$3") ]]
+}
 # No file but those named is in the folder.
 only_files() {
     local found
@@ -111,6 +116,17 @@ case_deform() {
     run 0 -q deform y.obj "${quick[@]}" --pose bend.json --skinning linear -o -
     [[ ! -s err ]] || fail "not quiet"
     grep -q '^v ' out || fail "no OBJ on standard output"
+    run 0 deform y.obj "${quick[@]}" --pose bend.json --frames 3 -o way.ply
+    [[ $(ls way*) == $'way_0001.ply\nway_0002.ply\nway_0003.ply' ]] || fail "not three files: $(ls)"
+    [[ $(grep -c '^ *[123] ' err) == 3 ]] || fail "no row a frame: $(cat err)"
+    run 0 check way_0003.ply
+    run 0 deform y.obj "${quick[@]}" --pose bend.json -o way.glb
+    [[ $(head -c 4 way.glb) == glTF ]] || fail "no GLB"
+    grep -aq '"animations"' way.glb || fail "no animation"
+    refused 2 'standard output' deform y.obj --pose bend.json --frames 2 -o -
+    refused 2 '--demo' deform y.obj --demo hand
+    refused 2 '--demo' deform --demo horse
+    refused 2 'y_0001.obj' deform y_0001.obj --pose bend.json --frames 2 -o y.obj
     refused 2 '--pose' deform y.obj -o b.obj
     refused 2 'standard input' deform - --pose - -o b.obj
     refused 2 'bend.json' deform y.obj --pose bend.json -o bend.json
@@ -646,14 +662,19 @@ case_gl_backends() {
         [[ $taken == osmesa && $backend == egl ]] && continue
         run 0 extract cube.obj --method paper --backend "$backend" --face-px 4 --step 0.05 -o a.json \
             --picture a.png --picture-width 64 --picture-height 48
-        /usr/bin/python3 - "$taken" <<'END' || fail "the JSON or the picture is not as promised"
-import json, struct, sys
+        /usr/bin/python3 - "$taken" <<'END' || fail "the JSON is not as promised"
+import json, sys
 backend = json.load(open("a.json"))["provenance"]["backend"]
 assert backend["name"] == sys.argv[1] and backend["renderer"] and backend["version"], backend
-png = open("a.png", "rb").read()
-assert png[:8] == b"\x89PNG\r\n\x1a\n" and struct.unpack(">II", png[16:24]) == (64, 48)
 END
+        is_png a.png 64 48 || fail "the picture is not as promised"
     done
+    run 0 deform --demo hand --backend ray --face-px 6 --frames 4
+    is_png hand.png 1800 480 || fail "no strip"
+    grep -aq '"animations"' hand.glb || fail "no animation"
+    echo '{"moves": [{"near": [0, 1, 0], "bend": 60, "axis": [0, 0, 1]}]}' >bend.json
+    run 0 deform "$models/y.obj" --backend ray --face-px 6 --pose bend.json -o - --strip y.png --strip-frames 2 --view 20,10
+    is_png y.png 600 480 || fail "no strip"
     ln -s /dev/full full
     refused 5 'full' extract cube.obj "${fast[@]}" -o a.json --picture full
     [[ -c full ]] || fail "the device was replaced"

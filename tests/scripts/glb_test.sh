@@ -19,6 +19,10 @@ done
 for form in lines.glb lines.gltf; do "$zskel" -q convert lines.json -o "$form"; done
 "$zskel" -q convert lines.json --tubes -o tubes.glb
 
+"$zskel" -q deform --demo hand --backend ray --face-px 6 -o curl.glb --strip /dev/null
+echo '{"moves": [{"branch": 0, "bend": 40, "axis": [0, 0, 1], "stretch": 1.3}]}' >longer.json
+"$zskel" -q deform "$models/y.obj" --backend ray --face-px 6 --pose longer.json --frames 5 -o longer.glb
+
 code=0
 if command -v node >/dev/null; then
     node "$here/../node/validate_glb.js" ./*.glb ./*.gltf || code=$?

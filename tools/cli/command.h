@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "zskel/core/error.h"
+#include "zskel/io/picture.h"
 #include "zskel/visibility/backend.h"
 
 namespace zskel::cli {
@@ -32,10 +33,13 @@ void add_reconstruct_command(CLI::App& app, const Common& common, Run& run);
 void add_rig_command(CLI::App& app, const Common& common, Run& run);
 
 /// Adds the model, which is needed, as the subcommand's next argument.
-void add_model_argument(CLI::App& command, std::string& model);
+CLI::Option* add_model_argument(CLI::App& command, std::string& model);
 
 /// Adds --backend, --gpu, --face-px and --rays to a subcommand.
 void add_backend_options(CLI::App& command, BackendOptions& options);
+
+/// Adds --view to a subcommand.
+void add_view_option(CLI::App& command, PictureOptions& options);
 
 /// Checks for lengths: finite, and above 0 or not below it.
 CLI::Validator positive_length();

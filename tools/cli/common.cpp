@@ -77,8 +77,9 @@ void check_outputs(const std::string& model, const std::vector<std::string>& out
     }
 }
 
-void add_model_argument(CLI::App& command, std::string& model) {
-    command.add_option("model", model, "OBJ, OFF, PLY or STL; - reads standard input")->required();
+CLI::Option* add_model_argument(CLI::App& command, std::string& model) {
+    return command.add_option("model", model, "OBJ, OFF, PLY or STL; - reads standard input")
+        ->required();
 }
 
 void add_backend_options(CLI::App& command, BackendOptions& options) {
@@ -101,6 +102,15 @@ void add_backend_options(CLI::App& command, BackendOptions& options) {
                     "cube's texels "
                     "(the paper: 197)")
         ->check(CLI::Range(1, 1 << 20));
+}
+
+void add_view_option(CLI::App& command, PictureOptions& options) {
+    command
+        .add_option_function<std::string>(
+            "--view", [&options](const std::string& text) { options.view = parse_view(text); },
+            "Where pictures are taken from: front, back, left, right, top, bottom, iso, or "
+            "AZIMUTH,ELEVATION in degrees; with ,z at the end z is up")
+        ->type_name("VIEW");
 }
 
 void print(const std::string& text) {

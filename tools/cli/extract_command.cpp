@@ -306,16 +306,7 @@ void add_extract_command(CLI::App& app, const Common& common, Run& run) {
                         "Draw the skeleton in the translucent model (PNG)");
     command->add_option("--picture-paths", arguments->picture_paths,
                         "Draw the seeds' paths and the nodes (PNG; the paper's Figure 3)");
-    command
-        ->add_option_function<std::string>(
-            "--view",
-            [arguments](const std::string& text) {
-                arguments->picture_options.view = parse_view(text);
-            },
-            "Where pictures are taken from: front, back, left, right, top, bottom, iso, or "
-            "AZIMUTH,ELEVATION in degrees; "
-            "with ,z at the end z is up")
-        ->type_name("VIEW");
+    add_view_option(*command, arguments->picture_options);
     command->add_option("--picture-width", arguments->picture_options.width_px, "Pixels")
         ->capture_default_str()
         ->check(CLI::Range(16, 8192));

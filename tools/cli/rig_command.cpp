@@ -20,8 +20,8 @@ ExitCode rig(const Arguments& arguments, const Common& common) {
     const Mesh mesh = read_mesh(arguments.model);
     const RiggedModel rig = rig_model(mesh, arguments.rig);
     write_output_text(arguments.output,
-                      write_rig_glb(mesh, rig.armature, rig.weights, common.command));
-    log_info("{} bones of {} branches", rig.armature.bones.size(), rig.branches);
+                      write_rig_glb(mesh, rig.armature, rig.weights, {}, common.command));
+    log_info("{} bones of {} branches", rig.armature.bones.size(), find_branches(rig.graph).size());
     return ExitCode::Ok;
 }
 

@@ -44,12 +44,12 @@ void add_rig_options(CLI::App& command, RigOptions& options) {
 RiggedModel rig_model(const Mesh& mesh, const RigOptions& options) {
     const std::unique_ptr<Backend> backend =
         open_backend(backend_options_for(mesh, options.extract, options.backend));
-    const ExtractResult result = extract_skeleton(mesh, options.extract, *backend);
+    ExtractResult result = extract_skeleton(mesh, options.extract, *backend);
     RiggedModel rig;
     rig.armature = build_armature(result.graph, options.armature);
     say_what_was_left_out(rig.armature);
     rig.weights = skin_weights(mesh, result.graph, rig.armature, options.weights);
-    rig.branches = find_branches(result.graph).size();
+    rig.graph = std::move(result.graph);
     return rig;
 }
 

@@ -15,9 +15,9 @@ struct RigOptions {
 };
 
 struct RiggedModel {
+    SkeletonGraph graph;
     Armature armature;
     std::vector<std::vector<Influence>> weights;
-    std::size_t branches = 0;
 };
 
 /// Adds --max-bones, --detail, --smoothing and the choice of backend to a subcommand.

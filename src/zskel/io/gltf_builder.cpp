@@ -93,18 +93,32 @@ std::size_t GltfBuilder::add_weights(const std::vector<std::array<float, 4>>& we
     return add_floats(values, "VEC4", weights.size());
 }
 
-std::size_t GltfBuilder::add_moves(const std::vector<DVec3>& moves) {
+std::size_t GltfBuilder::add_matrices(const std::vector<glm::dmat4>& matrices) {
     std::vector<float> values;
-    for (const DVec3& move : moves) {
-        for (int column = 0; column < 4; ++column) {
-            for (int row = 0; row < 3; ++row) {
-                const double one = column == row ? 1.0 : 0.0;
-                values.push_back(static_cast<float>(column == 3 ? move[row] : one));
-            }
-            values.push_back(column == 3 ? 1.0f : 0.0f);
-        }
+    for (const glm::dmat4& m : matrices) {
+        for (int k = 0; k < 16; ++k) values.push_back(static_cast<float>(m[k / 4][k % 4]));
     }
-    return add_floats(values, "MAT4", moves.size(), std::nullopt);
+    return add_floats(values, "MAT4", matrices.size(), std::nullopt);
+}
+
+std::size_t GltfBuilder::add_times(const std::vector<double>& seconds) {
+    const std::vector<float> values(seconds.begin(), seconds.end());
+    const std::size_t accessor = add_floats(values, "SCALAR", values.size(), std::nullopt);
+    accessors_[accessor]["min"] = {*std::min_element(values.begin(), values.end())};
+    accessors_[accessor]["max"] = {*std::max_element(values.begin(), values.end())};
+    return accessor;
+}
+
+std::size_t GltfBuilder::add_places(const std::vector<DVec3>& places) {
+    return add_floats(flat(places), "VEC3", places.size(), std::nullopt);
+}
+
+std::size_t GltfBuilder::add_turns(const std::vector<glm::dquat>& turns) {
+    std::vector<float> values;
+    for (const glm::dquat& q : turns) {
+        for (const double part : {q.x, q.y, q.z, q.w}) values.push_back(static_cast<float>(part));
+    }
+    return add_floats(values, "VEC4", turns.size(), std::nullopt);
 }
 
 std::string GltfBuilder::finish(Json document, const std::string& origin,

@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cstdint>
+#include <glm/gtc/quaternion.hpp>
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
@@ -26,7 +27,10 @@ class GltfBuilder {
     std::size_t add_indices(const std::vector<std::uint32_t>& values);
     std::size_t add_joints(const std::vector<std::array<std::uint16_t, 4>>& joints);
     std::size_t add_weights(const std::vector<std::array<float, 4>>& weights);
-    std::size_t add_moves(const std::vector<DVec3>& moves);  ///< matrices that do no more than move
+    std::size_t add_matrices(const std::vector<glm::dmat4>& matrices);
+    std::size_t add_times(const std::vector<double>& seconds);    ///< with their bounds
+    std::size_t add_places(const std::vector<DVec3>& places);     ///< of keys, as are
+    std::size_t add_turns(const std::vector<glm::dquat>& turns);  ///< these
 
     /// The file.
     /// @throws InputError when a binary file would be larger than its 32-bit sizes can say.

@@ -272,6 +272,29 @@ Image draw_skeleton(gl::Context& context, const Surface& surface, const Skeleton
     return paint(context, skeleton_scene(surface, graph, options));
 }
 
+Image draw_strip(gl::Context& context, const std::vector<Frame>& frames,
+                 const PictureOptions& options) {
+    Surface all = frames.front().surface;
+    for (const Frame& frame : frames)
+        all.positions.insert(all.positions.end(), frame.surface.positions.begin(),
+                             frame.surface.positions.end());
+    const Camera camera = scene_camera(all, options);
+    const auto stride = static_cast<std::ptrdiff_t>(3 * options.width_px);
+    Image strip =
+        make_image(options.width_px * static_cast<int>(frames.size()), options.height_px, 3, 255);
+    for (std::size_t f = 0; f < frames.size(); ++f) {
+        const Image picture =
+            paint(context, skeleton_scene(frames[f].surface, frames[f].graph, camera, options));
+        const auto columns = static_cast<std::ptrdiff_t>(frames.size());
+        for (std::ptrdiff_t row = 0; row < options.height_px; ++row) {
+            std::copy_n(
+                picture.pixels.begin() + row * stride, stride,
+                strip.pixels.begin() + (row * columns + static_cast<std::ptrdiff_t>(f)) * stride);
+        }
+    }
+    return strip;
+}
+
 Image draw_paths(gl::Context& context, const Surface& surface,
                  std::span<const std::vector<Vec3>> paths, std::span<const Vec3> nodes,
                  const PictureOptions& options) {

@@ -32,6 +32,19 @@ inline constexpr Vec3 kModelColor{0.80f, 0.79f, 0.75f};
 Image draw_skeleton(gl::Context& context, const Surface& surface, const SkeletonGraph& graph,
                     const PictureOptions& options);
 
+/// One picture of a strip.
+struct Frame {
+    Surface surface;      ///< all of a strip in one world space
+    SkeletonGraph graph;  ///< model space
+};
+
+/// The frames side by side, from left to right, all seen by one camera that shows each of them
+/// whole.
+/// @param frames   not empty.
+/// @param options  the size is that of one frame. @throws as draw_skeleton.
+Image draw_strip(gl::Context& context, const std::vector<Frame>& frames,
+                 const PictureOptions& options);
+
 /// The model translucent with the seeds' ways through it, light at the start and dark at the end,
 /// and the nodes where they end: the paper's Figure 3.
 /// @param paths, nodes  world space. @throws as draw_skeleton.

@@ -49,20 +49,10 @@ std::vector<Corner> corners_of(const Surface& surface) {
     return corners;
 }
 
-Scene make_scene(const Surface& surface, const PictureOptions& options) {
-    for (const int px : {options.width_px, options.height_px}) {
-        if (px < kMinPx || px > kMaxPx) {
-            throw UsageError(fmt::format("a picture of {} x {} pixels: give {} to {}",
-                                         options.width_px, options.height_px, kMinPx, kMaxPx));
-        }
-    }
+Scene make_scene(const Surface& surface, const Camera& camera, const PictureOptions& options) {
     const float smaller = static_cast<float>(std::min(options.height_px, options.width_px * 3 / 4));
-    return {aim_camera(surface, options.view, options.width_px, options.height_px),
-            corners_of(surface),
-            {},
-            options.width_px,
-            options.height_px,
-            smaller / kReferencePx};
+    return {camera,           corners_of(surface), {},
+            options.width_px, options.height_px,   smaller / kReferencePx};
 }
 
 // World radius of what is to be `px` pixels of the reference picture thick.
@@ -72,9 +62,24 @@ float world_radius(const Scene& scene, float px) {
 
 }  // namespace
 
+Camera scene_camera(const Surface& surface, const PictureOptions& options) {
+    for (const int px : {options.width_px, options.height_px}) {
+        if (px < kMinPx || px > kMaxPx) {
+            throw UsageError(fmt::format("a picture of {} x {} pixels: give {} to {}",
+                                         options.width_px, options.height_px, kMinPx, kMaxPx));
+        }
+    }
+    return aim_camera(surface, options.view, options.width_px, options.height_px);
+}
+
 Scene skeleton_scene(const Surface& surface, const SkeletonGraph& graph,
                      const PictureOptions& options) {
-    Scene scene = make_scene(surface, options);
+    return skeleton_scene(surface, graph, scene_camera(surface, options), options);
+}
+
+Scene skeleton_scene(const Surface& surface, const SkeletonGraph& graph, const Camera& camera,
+                     const PictureOptions& options) {
+    Scene scene = make_scene(surface, camera, options);
     const auto place = [&](std::uint32_t node) {
         return surface.world_from_model.to_world(graph.nodes[node].position);
     };
@@ -96,7 +101,7 @@ Scene paths_scene(const Surface& surface, std::span<const std::vector<Vec3>> pat
                   std::span<const Vec3> nodes, const PictureOptions& options) {
     const Vec3 start_color(0.34f, 0.71f, 0.91f);
     const Vec3 end_color(0.05f, 0.15f, 0.40f);
-    Scene scene = make_scene(surface, options);
+    Scene scene = make_scene(surface, scene_camera(surface, options), options);
     const float many = std::max(static_cast<float>(paths.size()) / kFewPaths, 1.0f);
     const float radius = world_radius(scene, kPathPx * std::pow(many, -0.15f));
     for (const std::vector<Vec3>& path : paths) {

@@ -36,9 +36,16 @@ struct Scene {
     float px_scale = 1.0f;  ///< lines and radii, against a picture 1200 pixels high
 };
 
+/// The camera that the options ask for. @throws UsageError for a size that cannot be drawn.
+Camera scene_camera(const Surface& surface, const PictureOptions& options);
+
 /// The model with a skeleton (model space) in it. @throws UsageError for a size that cannot be
 /// drawn.
 Scene skeleton_scene(const Surface& surface, const SkeletonGraph& graph,
+                     const PictureOptions& options);
+
+/// The model with a skeleton in it, seen by a camera that was aimed before.
+Scene skeleton_scene(const Surface& surface, const SkeletonGraph& graph, const Camera& camera,
                      const PictureOptions& options);
 
 /// The model with paths and nodes (world space) in it. @throws UsageError for a size that cannot be

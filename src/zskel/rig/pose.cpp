@@ -15,8 +15,10 @@ namespace zskel {
 namespace {
 
 constexpr double kLeastStretch = 1e-3;
+constexpr double kLongest = 3600.0;
 constexpr std::array<const char*, 3> kTargets = {"branch", "bone", "near"};
-constexpr std::array<const char*, 5> kDone = {"turn", "bend", "twist", "stretch", "axis"};
+constexpr std::array<const char*, 7> kDone = {"turn", "bend",  "twist", "stretch",
+                                              "axis", "begin", "end"};
 
 std::vector<std::uint32_t> bones_of_branch(const Armature& armature, std::uint32_t branch) {
     std::vector<std::uint32_t> out;
@@ -68,7 +70,7 @@ Move read_move(const JsonPlace& entry, const Armature& armature) {
         const auto is_key = [&](const char* known) { return item.key() == known; };
         if (std::none_of(kTargets.begin(), kTargets.end(), is_key) &&
             std::none_of(kDone.begin(), kDone.end(), is_key))
-            entry.fail("a move: it knows turn, bend, twist, stretch and axis, not " +
+            entry.fail("a move: it knows turn, bend, twist, stretch, axis, begin and end, not " +
                        zskel::quoted(item.key()));
     }
     Move move;
@@ -89,6 +91,17 @@ Move read_move(const JsonPlace& entry, const Armature& armature) {
         if (!(largest > 0.0)) axis.fail("a direction");
         move.axis = glm::normalize(move.axis / largest);
     }
+    if (entry.has("begin")) {
+        move.begin = entry.at("begin").number();
+        if (!(move.begin >= 0.0 && move.begin <= kLongest))
+            entry.at("begin").fail("seconds, from 0 to 3600");
+    }
+    move.end = move.begin + 1.0;
+    if (entry.has("end")) {
+        move.end = entry.at("end").number();
+        if (!(move.end >= move.begin && move.end <= kLongest))
+            entry.at("end").fail("seconds, from its begin to 3600");
+    }
     return move;
 }
 
@@ -103,6 +116,27 @@ Pose read_pose(std::string_view bytes, const std::string& name, const Armature& 
     return pose;
 } catch (const nlohmann::json::exception& error) {
     throw InputError(fmt::format("{}: no JSON: {}", name, error.what()));
+}
+
+double duration(const Pose& pose) {
+    double out = 0.0;
+    for (const Move& move : pose) out = std::max(out, move.end);
+    return out;
+}
+
+Pose pose_at(const Pose& pose, double seconds) {
+    Pose out = pose;
+    for (Move& move : out) {
+        const double way = move.end - move.begin;
+        double done = seconds >= move.end ? 1.0 : 0.0;
+        if (way > 0.0) done = glm::clamp((seconds - move.begin) / way, 0.0, 1.0);
+        const double share = done * done * (3.0 - 2.0 * done);
+        move.turn *= share;
+        move.bend *= share;
+        move.twist *= share;
+        move.stretch = std::pow(move.stretch, share);
+    }
+    return out;
 }
 
 std::vector<BoneMotion> bone_motions(const Armature& armature, const Pose& pose) {

@@ -17,16 +17,25 @@ struct Move {
     double bend = 0.0;                 ///< radians, shared out evenly over its bones
     double twist = 0.0;                ///< radians about its own bones, shared out evenly
     double stretch = 1.0;              ///< factor of its length
+    double begin = 0.0;                ///< seconds; when it starts from rest
+    double end = 1.0;                  ///< seconds; from when on all of it is done
 };
 using Pose = std::vector<Move>;
+
+/// When all of a pose is done, in seconds; 0 without any move.
+double duration(const Pose& pose);
+
+/// On the way there: each move as far as it is done at that time, starting and ending gently.
+Pose pose_at(const Pose& pose, double seconds);
 
 /// Reads a pose:
 ///   {"moves": [{"branch": 3, "bend": 90, "axis": [0, 0, 1]},
 ///              {"bone": "branch2.1", "turn": 20, "axis": [1, 0, 0]},
 ///              {"near": [0.1, 0.8, 0.2], "twist": 30, "stretch": 1.2}]}
 /// `near` means the branch nearest to that point. Angles are in degrees, counter-clockwise seen
-/// against the axis. Of one bone twists come first, about itself at rest; then turns and bends in
-/// the order given.
+/// against the axis. `begin` and `end`, in seconds, say when a move is done: from 0 on and for one
+/// second where they are not given. Of one bone twists come first, about itself at rest; then turns
+/// and bends in the order given.
 /// @throws InputError that names the file and the move.
 Pose read_pose(std::string_view bytes, const std::string& name, const Armature& armature);
 

@@ -5,6 +5,7 @@
 
 #include "zskel/core/parallel.h"
 #include "zskel/mesh/bounds.h"
+#include "zskel/mesh/self_intersections.h"
 #include "zskel/mesh/surface.h"
 
 namespace zskel {
@@ -60,18 +61,22 @@ DVec3 by_dual_quaternion(const DVec3& point, const std::vector<Influence>& influ
     return sum.turn * point + DVec3(move.x, move.y, move.z);
 }
 
-// The triangles of a closed surface, all of them turned outward; none when it is open.
-std::vector<Triangle> closed_triangles(const Mesh& mesh) {
+// The triangles between welded vertices; those of a closed surface are all turned outward.
+struct Welded {
+    std::vector<Triangle> triangles;
+    bool is_closed = true;
+};
+Welded weld(const Mesh& mesh) {
     const PreparedSurface prepared = prepare_surface(mesh);
     const auto& closed = prepared.component_closed;
-    if (std::find(closed.begin(), closed.end(), false) != closed.end()) return {};
     std::vector<std::uint32_t> vertex_at(prepared.surface.positions.size(), 0);
     for (std::uint32_t v = 0; v < mesh.positions.size(); ++v) {
         if (prepared.surface_vertex[v] != kNone) vertex_at[prepared.surface_vertex[v]] = v;
     }
-    std::vector<Triangle> out;
+    Welded out;
+    out.is_closed = std::find(closed.begin(), closed.end(), false) == closed.end();
     for (const Triangle& t : prepared.surface.triangles)
-        out.emplace_back(vertex_at[t.x], vertex_at[t.y], vertex_at[t.z]);
+        out.triangles.emplace_back(vertex_at[t.x], vertex_at[t.y], vertex_at[t.z]);
     return out;
 }
 
@@ -102,13 +107,27 @@ std::vector<DVec3> deform(const Mesh& mesh, const Armature& armature,
     return out;
 }
 
+SkeletonGraph deform_skeleton(const SkeletonGraph& graph, const Armature& armature,
+                              const std::vector<BoneMotion>& motions) {
+    SkeletonGraph out = graph;
+    for (std::size_t n = 0; n < out.nodes.size(); ++n) {
+        const std::vector<Influence> follows{{armature.node_bones[n].front(), 1.0f}};
+        DVec3& place = out.nodes[n].position;
+        place = by_mean(stretched(place, armature, follows, motions), follows, motions);
+    }
+    return out;
+}
+
 DeformMeasures measure_deformation(const Mesh& mesh, const std::vector<DVec3>& deformed,
                                    const std::vector<std::vector<Influence>>& weights,
                                    const std::vector<BoneMotion>& motions) {
     DeformMeasures out;
-    const std::vector<Triangle> closed = closed_triangles(mesh);
-    const double before = volume_of(closed, mesh.positions);
-    if (before > 0.0) out.volume_change = volume_of(closed, deformed) / before - 1.0;
+    const Welded welded = weld(mesh);
+    const double before = volume_of(welded.triangles, mesh.positions);
+    if (welded.is_closed && before > 0.0)
+        out.volume_change = volume_of(welded.triangles, deformed) / before - 1.0;
+    out.crossing_at_rest = count_crossing_triangles(mesh.positions, welded.triangles);
+    out.crossing_faces = count_crossing_triangles(deformed, welded.triangles);
 
     std::vector<double> stretches;
     for (const Triangle& t : mesh.triangles) {

@@ -20,10 +20,16 @@ std::vector<DVec3> deform(const Mesh& mesh, const Armature& armature,
                           const std::vector<std::vector<Influence>>& weights,
                           const std::vector<BoneMotion>& motions, Skinning skinning);
 
+/// The skeleton in that pose. Nodes at joints go with the first of the bones that meet there.
+SkeletonGraph deform_skeleton(const SkeletonGraph& graph, const Armature& armature,
+                              const std::vector<BoneMotion>& motions);
+
 /// What a deformation did to a mesh.
 struct DeformMeasures {
     std::optional<double> volume_change;  ///< share of the volume, signed; none on open surfaces
     std::size_t flipped_faces = 0;        ///< that look away from where their bones turned them
+    std::size_t crossing_faces = 0;       ///< that pass through another face
+    std::size_t crossing_at_rest = 0;     ///< that did so before
     double edge_stretch_median = 1.0;     ///< length over the length at rest
     double edge_stretch_p99 = 1.0;  ///< the larger of that and its inverse, at 99 % of the edges
     double edge_stretch_worst = 1.0;

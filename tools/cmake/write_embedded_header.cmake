@@ -1,6 +1,6 @@
-# Writes OUT from the shader files in FILES (separated by |); see EmbedGlsl.cmake.
+# Writes OUT, namespace zskel::NAME, from FILES (separated by |); see EmbedFiles.cmake.
 string(REPLACE "|" ";" files "${FILES}")
-set(text "#pragma once\n#include <string_view>\n\nnamespace zskel::glsl {\n")
+set(text "#pragma once\n#include <string_view>\n\nnamespace zskel::${NAME} {\n")
 foreach(file IN LISTS files)
     get_filename_component(name "${file}" NAME)
     string(REGEX REPLACE "[._]" ";" words "${name}")
@@ -12,7 +12,7 @@ foreach(file IN LISTS files)
         string(APPEND constant "${first}${rest}")
     endforeach()
     file(READ "${file}" body)
-    string(APPEND text "inline constexpr std::string_view ${constant} = R\"glsl(${body})glsl\";\n")
+    string(APPEND text "inline constexpr std::string_view ${constant} = R\"embedded(${body})embedded\";\n")
 endforeach()
-string(APPEND text "}  // namespace zskel::glsl\n")
+string(APPEND text "}  // namespace zskel::${NAME}\n")
 file(WRITE "${OUT}" "${text}")

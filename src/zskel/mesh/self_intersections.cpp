@@ -1,0 +1,108 @@
+#include "zskel/mesh/self_intersections.h"
+
+#include <embree3/rtcore.h>
+
+#include <algorithm>
+#include <atomic>
+#include <cmath>
+#include <limits>
+#include <memory>
+
+namespace zskel {
+namespace {
+
+struct Triangles {
+    const std::vector<DVec3>& positions;
+    const std::vector<Triangle>& triangles;
+    std::vector<std::atomic<bool>> crosses;
+};
+
+double side_of(const DVec3& a, const DVec3& b, const DVec3& c, const DVec3& p) {
+    return glm::dot(glm::cross(b - a, c - a), p - a);
+}
+
+bool passes(const DVec3& from, const DVec3& to, const DVec3& a, const DVec3& b, const DVec3& c) {
+    const double before = side_of(a, b, c, from);
+    const double behind = side_of(a, b, c, to);
+    if (!(before * behind < 0.0)) return false;
+    const double ab = side_of(from, to, a, b);
+    const double bc = side_of(from, to, b, c);
+    const double ca = side_of(from, to, c, a);
+    return (ab > 0.0 && bc > 0.0 && ca > 0.0) || (ab < 0.0 && bc < 0.0 && ca < 0.0);
+}
+
+bool has(const Triangle& t, std::uint32_t vertex) {
+    return t.x == vertex || t.y == vertex || t.z == vertex;
+}
+
+// An edge that has a corner in common with the other triangle only touches it there; where two
+// triangles with a common corner cross, the edge opposite to it does in one of them.
+bool edge_passes(const Triangles& all, const Triangle& one, const Triangle& other) {
+    const auto& p = all.positions;
+    for (int k = 0; k < 3; ++k) {
+        const std::uint32_t from = one[k];
+        const std::uint32_t to = one[(k + 1) % 3];
+        if (has(other, from) || has(other, to)) continue;
+        if (passes(p[from], p[to], p[other.x], p[other.y], p[other.z])) return true;
+    }
+    return false;
+}
+
+// Of two triangles whose boxes meet; called by several threads at once.
+void visit_pairs(void* user, RTCCollision* pairs, unsigned count) {
+    auto& all = *static_cast<Triangles*>(user);
+    for (unsigned i = 0; i < count; ++i) {
+        const std::uint32_t a = pairs[i].primID0;
+        const std::uint32_t b = pairs[i].primID1;
+        if (a == b || (all.crosses[a] && all.crosses[b])) continue;
+        const Triangle& one = all.triangles[a];
+        const Triangle& other = all.triangles[b];
+        if (!edge_passes(all, one, other) && !edge_passes(all, other, one)) continue;
+        all.crosses[a] = true;
+        all.crosses[b] = true;
+    }
+}
+
+// The box in floats, rounded outwards.
+void bound(const RTCBoundsFunctionArguments* arguments) {
+    constexpr float kInfinity = std::numeric_limits<float>::infinity();
+    const auto& all = *static_cast<const Triangles*>(arguments->geometryUserPtr);
+    const Triangle& t = all.triangles[arguments->primID];
+    const DVec3& a = all.positions[t.x];
+    const DVec3& b = all.positions[t.y];
+    const DVec3& c = all.positions[t.z];
+    const DVec3 low = glm::min(glm::min(a, b), c);
+    const DVec3 high = glm::max(glm::max(a, b), c);
+    const auto down = [](double x) { return std::nextafter(static_cast<float>(x), -kInfinity); };
+    const auto up = [](double x) { return std::nextafter(static_cast<float>(x), kInfinity); };
+    RTCBounds& box = *arguments->bounds_o;
+    box.lower_x = down(low.x);
+    box.lower_y = down(low.y);
+    box.lower_z = down(low.z);
+    box.upper_x = up(high.x);
+    box.upper_y = up(high.y);
+    box.upper_z = up(high.z);
+}
+
+}  // namespace
+
+std::size_t count_crossing_triangles(const std::vector<DVec3>& positions,
+                                     const std::vector<Triangle>& triangles) {
+    Triangles all{positions, triangles, std::vector<std::atomic<bool>>(triangles.size())};
+    const std::unique_ptr<RTCDeviceTy, decltype(&rtcReleaseDevice)> device(rtcNewDevice(nullptr),
+                                                                           rtcReleaseDevice);
+    const std::unique_ptr<RTCSceneTy, decltype(&rtcReleaseScene)> scene(rtcNewScene(device.get()),
+                                                                        rtcReleaseScene);
+    RTCGeometry geometry = rtcNewGeometry(device.get(), RTC_GEOMETRY_TYPE_USER);
+    rtcSetGeometryUserPrimitiveCount(geometry, static_cast<unsigned>(triangles.size()));
+    rtcSetGeometryUserData(geometry, &all);
+    rtcSetGeometryBoundsFunction(geometry, bound, nullptr);
+    rtcCommitGeometry(geometry);
+    rtcAttachGeometry(scene.get(), geometry);
+    rtcReleaseGeometry(geometry);
+    rtcCommitScene(scene.get());
+    rtcCollide(scene.get(), scene.get(), visit_pairs, &all);
+    return static_cast<std::size_t>(std::count(all.crosses.begin(), all.crosses.end(), true));
+}
+
+}  // namespace zskel
