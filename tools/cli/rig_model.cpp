@@ -46,7 +46,7 @@ RiggedModel rig_model(const Mesh& mesh, const RigOptions& options) {
         open_backend(backend_options_for(mesh, options.extract, options.backend));
     ExtractResult result = extract_skeleton(mesh, options.extract, *backend);
     RiggedModel rig;
-    rig.armature = build_armature(result.graph, options.armature);
+    rig.armature = build_armature(result.graph, mesh.triangles, options.armature);
     say_what_was_left_out(rig.armature);
     rig.weights = skin_weights(mesh, result.graph, rig.armature, options.weights);
     rig.graph = std::move(result.graph);

@@ -24,15 +24,17 @@ struct Chain {
     std::uint32_t parent = kNone;  // chain
     double length = 0.0;
     bool is_dropped = false;
-    std::size_t out = 0;              // the first place in `nodes` outside its junction's ball
+    std::size_t out = 0;              // the first place in `nodes` that may have a bone
     std::vector<std::size_t> joints;  // places from there on where bones start and end; may be none
     std::uint32_t last_bone = kNone;  // what hangs on its end hangs on this
 };
 
 class ArmatureBuilder {
   public:
-    ArmatureBuilder(const SkeletonGraph& graph, const ArmatureOptions& options)
+    ArmatureBuilder(const SkeletonGraph& graph, std::span<const Triangle> triangles,
+                    const ArmatureOptions& options)
         : graph_(graph),
+          triangles_(triangles),
           options_(options),
           links_(node_links(graph)),
           parents_(graph.nodes.size(), kNone),
@@ -43,6 +45,7 @@ class ArmatureBuilder {
     Armature build() {
         grow_trees();
         cut_chains();
+        leave_shared_patches();
         fit_bones();
         name_branches();
         place_hubs();
@@ -133,6 +136,45 @@ class ArmatureBuilder {
                 chains_.push_back(std::move(chain));
             }
         }
+    }
+
+    // Bones start where their chain's patches come away from those of its parent and its siblings.
+    void leave_shared_patches() {
+        std::vector<std::uint32_t> chain_of(graph_.nodes.size(), kNone);  // junctions: of none
+        for (std::uint32_t c = 0; c < chains_.size(); ++c) {
+            const std::vector<std::uint32_t>& nodes = chains_[c].nodes;
+            for (std::size_t i = 1; i < nodes.size(); ++i) {
+                if (i + 1 < nodes.size() || children_[nodes[i]].empty()) chain_of[nodes[i]] = c;
+            }
+        }
+        const auto are_family = [&](std::uint32_t a, std::uint32_t b) {
+            return chains_[a].nodes.front() == chains_[b].nodes.front() || chains_[a].parent == b;
+        };
+        std::vector<bool> is_shared(graph_.nodes.size(), false);
+        for (const Triangle& t : triangles_) {
+            for (int k = 0; k < 3; ++k) {
+                const std::uint32_t node = graph_.vertex_node[t[k]];
+                const std::uint32_t other = graph_.vertex_node[t[(k + 1) % 3]];
+                if (node == kNone || other == kNone) continue;
+                const std::uint32_t a = chain_of[node];
+                const std::uint32_t b = chain_of[other];
+                if (a == kNone || b == kNone || a == b) continue;
+                if (are_family(a, b)) is_shared[node] = true;
+                if (are_family(b, a)) is_shared[other] = true;
+            }
+        }
+        for (Chain& chain : chains_) leave_shared(chain, is_shared);
+    }
+
+    // A gap as long as the chain is thick tells that it has come away.
+    void leave_shared(Chain& chain, const std::vector<bool>& is_shared) const {
+        std::size_t first = chain.out;
+        for (std::size_t i = chain.out; i < chain.nodes.size(); ++i) {
+            const std::uint32_t n = chain.nodes[i];
+            if (first < i && ways_[n] - ways_[chain.nodes[first]] > radius(n)) break;
+            if (is_shared[n]) first = i + 1;
+        }
+        if (first + 1 < chain.nodes.size()) chain.out = first;
     }
 
     void fit_bones() {
@@ -279,6 +321,7 @@ class ArmatureBuilder {
     }
 
     const SkeletonGraph& graph_;
+    const std::span<const Triangle> triangles_;
     const ArmatureOptions& options_;
     const NodeLinks links_;
     std::vector<std::uint32_t> parents_;  // of nodes, in the trees
@@ -317,8 +360,9 @@ std::vector<std::uint32_t> last_bones(const Armature& armature) {
     return out;
 }
 
-Armature build_armature(const SkeletonGraph& graph, const ArmatureOptions& options) {
-    return ArmatureBuilder(graph, options).build();
+Armature build_armature(const SkeletonGraph& graph, std::span<const Triangle> triangles,
+                        const ArmatureOptions& options) {
+    return ArmatureBuilder(graph, triangles, options).build();
 }
 
 }  // namespace zskel

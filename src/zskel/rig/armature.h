@@ -1,5 +1,6 @@
 #pragma once
 
+#include <span>
 #include <string>
 #include <vector>
 
@@ -52,11 +53,15 @@ std::vector<std::uint32_t> last_bones(const Armature& armature);
 
 /// Turns a skeleton into bones. The root of each component is its thickest junction (its thicker
 /// end where it has none); a loop is opened where the ways from the root round it meet, and the two
-/// parts of a branch that is cut so both start at its ends. The first bone of a branch starts at
-/// its first node outside the ball at its junction, as a hip lies off the spine: what is within the
-/// ball moves with what the branch hangs on. To keep within `max_bones` bones are made coarser;
-/// then the shortest end branches get none of their own, and move so too.
+/// parts of a branch that is cut so both start at its ends. The first bone of a branch starts where
+/// a limb of its own does, as a hip lies off the spine and a knuckle off the wrist: at its first
+/// node outside the ball at its junction from which on its patches of the surface touch none of the
+/// branches that start there or end there. What is before it moves with what the branch hangs on.
+/// To keep within `max_bones` bones are made coarser; then the shortest end branches get none of
+/// their own, and move so too.
+/// @param triangles  of the mesh, for its patches (`vertex_node`); none: only balls count.
 /// @throws UsageError when there are more components than `max_bones`.
-Armature build_armature(const SkeletonGraph& graph, const ArmatureOptions& options);
+Armature build_armature(const SkeletonGraph& graph, std::span<const Triangle> triangles,
+                        const ArmatureOptions& options);
 
 }  // namespace zskel

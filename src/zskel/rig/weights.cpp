@@ -5,6 +5,7 @@
 #include <Eigen/SparseCholesky>
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <mutex>
 
 #include "zskel/core/error.h"
@@ -56,8 +57,9 @@ class Diffusion {
         }
         const double least = kLeastArea * area_sum / static_cast<double>(radii.size());
         for (std::size_t v = 0; v < radii.size(); ++v) {
-            const double reach = smoothing * radii[v];
-            const double hold = std::max(areas[v], least) / (reach * reach);
+            const double area = std::max(areas[v], least);
+            const double reach = std::max(smoothing * radii[v], std::sqrt(area));
+            const double hold = area / (reach * reach);
             hold_[static_cast<Eigen::Index>(v)] = hold;
             entries.emplace_back(static_cast<int>(v), static_cast<int>(v), diagonal[v] + hold);
         }
@@ -82,6 +84,11 @@ class Diffusion {
     Eigen::VectorXd hold_;
     Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>> solver_;
 };
+
+bool hangs_on(const Armature& armature, std::uint32_t bone, std::uint32_t on) {
+    while (bone != kNone && bone != on) bone = armature.bones[bone].parent;
+    return bone == on;
+}
 
 void keep_strongest(std::vector<Influence>& influences, const WeightOptions& options) {
     std::sort(influences.begin(), influences.end(), [](const Influence& a, const Influence& b) {
@@ -141,7 +148,8 @@ std::vector<std::vector<Influence>> skin_weights(const Mesh& mesh, const Skeleto
             const std::lock_guard lock(mutex);
             for (std::size_t v = 0; v < places.size(); ++v) {
                 const double weight = weights[static_cast<Eigen::Index>(v)];
-                if (weight > 1e-4 * options.least_weight)
+                if (weight <= 1e-4 * options.least_weight) continue;
+                if (hangs_on(armature, first[v], bone) || hangs_on(armature, bone, first[v]))
                     places[v].push_back({bone, static_cast<float>(weight)});
             }
         }
