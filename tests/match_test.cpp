@@ -12,6 +12,7 @@
 
 #include "zskel/core/error.h"
 #include "zskel/io/dendrogram.h"
+#include "zskel/io/signature_file.h"
 #include "zskel/match/assignment.h"
 #include "zskel/match/signature.h"
 
@@ -149,4 +150,38 @@ TEST_CASE("dendrogram_svg: those nearest to each other are joined first and stan
     CHECK(joins.back() != std::string::npos);
     CHECK(dendrogram_svg({"alone"}, {{0}}).find(">alone<") != std::string::npos);
     CHECK_THROWS_AS(dendrogram_svg({}, {}), UsageError);
+}
+
+TEST_CASE("index of shapes: what was written comes back, what is damaged is refused") {
+    std::vector<NamedSignature> shapes;
+    for (const char* name : {"a.json", "", "folder, with \"marks\".json"})
+        shapes.push_back({name, signature_of(figure(0.0, shapes.empty() ? 1.0 : 2.0))});
+    const std::string bytes = write_signatures(shapes);
+    const std::vector<NamedSignature> back = read_signatures(bytes, "a.idx");
+    REQUIRE(back.size() == 3);
+    for (std::size_t i = 0; i < 3; ++i) {
+        CHECK(back[i].name == shapes[i].name);
+        CHECK(match_signatures(back[i].signature, shapes[i].signature).distance < 1e-7);
+        for (std::size_t s = 0; s < kStations; ++s)
+            CHECK(back[i].signature[s].node == shapes[i].signature[s].node);
+    }
+    CHECK(write_signatures(back) == bytes);
+    CHECK(read_signatures(write_signatures({}), "b.idx").empty());
+    for (std::size_t size = 0; size < bytes.size(); size += 1 + size / 7)
+        CHECK_THROWS_AS(read_signatures(bytes.substr(0, size), "cut"), InputError);
+    CHECK_THROWS_WITH_AS(read_signatures(bytes + "x", "long"), doctest::Contains("1 bytes after"),
+                         InputError);
+    const auto damaged = [&](std::size_t at, char value, const char* piece) {
+        std::string other = bytes;
+        other[at] = value;
+        CHECK_THROWS_WITH_AS(read_signatures(other, "bad.idx"), doctest::Contains(piece),
+                             InputError);
+    };
+    damaged(0, 'Z', "bad.idx: no index of shapes");
+    damaged(8, 2, "bad.idx: byte 8: version 2");
+    damaged(12, 1, "stations");
+    damaged(20, 4, "byte 20: 4 shapes");
+    damaged(23, 4, "shapes cannot be held");
+    damaged(27, 4, "a name of");
+    damaged(24 + 4 + 6 + 4 + 3, static_cast<char>(0xff), "is not a length");
 }

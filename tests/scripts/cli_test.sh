@@ -197,6 +197,14 @@ case_match() {
     /usr/bin/python3 -c 'import xml.dom.minidom as m; m.parse("all.svg")' || fail "no XML"
     run 0 match all/y.json all/torus.json all/same.graphml
     [[ $(head -n 1 out) == shape,all/y.json,all/torus.json,all/same.graphml ]] || fail "no CSV: $(cat out)"
+    run 0 match --index all --store all.idx
+    [[ ! -s out ]] || fail "more than was asked for: $(cat out)"
+    run 0 match --index all --query all/y.json
+    mv out folder.txt
+    run 0 match --index all.idx --query all/y.json
+    cmp -s out folder.txt || fail "the stored index finds other neighbours: $(cat out)"
+    refused 3 'no index of shapes' match --index y.obj --query all/y.json
+    refused 2 'all.idx' match --index all.idx --store all.idx
     echo '{' >all/bad.json
     run 0 match --index all --query all/y.json --json
     is_json out || fail "no JSON"

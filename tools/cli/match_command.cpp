@@ -7,11 +7,13 @@
 #include <numeric>
 
 #include "command.h"
+#include "zskel/core/input_file.h"
 #include "zskel/core/log.h"
 #include "zskel/core/parallel.h"
 #include "zskel/extract.h"
 #include "zskel/io/dendrogram.h"
 #include "zskel/io/output_file.h"
+#include "zskel/io/signature_file.h"
 #include "zskel/io/skeleton_formats.h"
 #include "zskel/match/signature.h"
 #include "zskel/mesh/read_mesh.h"
@@ -24,6 +26,7 @@ using Json = nlohmann::ordered_json;
 struct Arguments {
     std::vector<std::string> inputs;
     std::string index;
+    std::string store;
     std::string query;
     std::size_t neighbours = 10;
     std::string matrix;
@@ -33,10 +36,7 @@ struct Arguments {
     BackendOptions backend;
 };
 
-struct Shape {
-    std::string name;
-    Signature signature;
-};
+using Shape = NamedSignature;
 
 bool is_skeleton(const std::string& path) {
     const std::string extension = std::filesystem::path(path).extension();
@@ -77,16 +77,36 @@ std::vector<std::string> skeletons_in(const std::string& folder) {
 
 // What cannot be read is said, and costs no more than itself.
 std::vector<Shape> shapes_in(const std::string& folder, const Arguments& arguments) {
+    const std::vector<std::string> paths = skeletons_in(folder);
+    std::vector<Shape> found(paths.size());
+    std::vector<std::string> problems(paths.size());
+    parallel_for(paths.size(), 1, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t i = begin; i < end; ++i) {
+            try {
+                found[i] = shape_of(paths[i], arguments);
+            } catch (const InputError& error) {
+                problems[i] = error.what();
+            }
+        }
+    });
     std::vector<Shape> out;
-    for (const std::string& path : skeletons_in(folder)) {
-        try {
-            out.push_back(shape_of(path, arguments));
-        } catch (const InputError& error) {
-            log_warning("left out: {}", error.what());
+    for (std::size_t i = 0; i < paths.size(); ++i) {
+        if (problems[i].empty()) {
+            out.push_back(std::move(found[i]));
+        } else {
+            log_warning("left out: {}", problems[i]);
         }
     }
     if (out.empty()) throw InputError(folder + ": none of its skeletons can be compared");
     return out;
+}
+
+// A folder of skeletons, or what --store wrote of one.
+std::vector<Shape> indexed_shapes(const Arguments& arguments) {
+    if (std::filesystem::is_regular_file(arguments.index))
+        return read_signatures(read_input_file(arguments.index, "an index of shapes"),
+                               arguments.index);
+    return shapes_in(arguments.index, arguments);
 }
 
 std::vector<std::vector<double>> distances_of(const std::vector<Shape>& shapes) {
@@ -176,25 +196,29 @@ void write_tables(const std::vector<Shape>& shapes, const Arguments& arguments) 
 ExitCode match(const Arguments& arguments) {
     const bool has_index = !arguments.index.empty();
     if (has_index != arguments.inputs.empty())
-        throw UsageError("give two shapes or more, or --index DIR");
+        throw UsageError("give two shapes or more, or --index");
     if (!arguments.query.empty() && !has_index) throw UsageError("--query goes with --index");
     if (!has_index && arguments.inputs.size() < 2)
         throw UsageError("one shape alone has nothing to be compared with");
-    for (const std::string& input : arguments.inputs)
-        check_outputs(input, {arguments.matrix, arguments.dendrogram});
+    const std::vector<std::string> outputs = {arguments.matrix, arguments.dendrogram,
+                                              arguments.store};
+    for (const std::string& input : arguments.inputs) check_outputs(input, outputs);
+    check_outputs(arguments.index, outputs);
     std::vector<Shape> shapes;
     if (has_index) {
-        shapes = shapes_in(arguments.index, arguments);
+        shapes = indexed_shapes(arguments);
     } else {
         for (const std::string& input : arguments.inputs)
             shapes.push_back(shape_of(input, arguments));
     }
     write_tables(shapes, arguments);
+    if (!arguments.store.empty()) write_output_text(arguments.store, write_signatures(shapes));
     if (!arguments.query.empty()) {
         print(neighbours_text(shape_of(arguments.query, arguments), shapes, arguments));
     } else if (shapes.size() == 2 && !has_index) {
         print(pair_text(shapes[0], shapes[1], arguments.as_json));
-    } else if (arguments.matrix.empty() && arguments.dendrogram.empty()) {
+    } else if (std::all_of(outputs.begin(), outputs.end(),
+                           [](const std::string& path) { return path.empty(); })) {
         print(matrix_csv(shapes, distances_of(shapes)));
     }
     return ExitCode::Ok;
@@ -209,9 +233,13 @@ void add_match_command(CLI::App& app, const Common&, Run& run) {
     command->add_option("shapes", arguments->inputs,
                         "Models, or skeletons with radii (.json, .graphml, .swc, .vtp): the "
                         "distance of two, or all distances of more (CSV)");
-    command->add_option("--index", arguments->index, "All skeletons in this folder");
+    command->add_option("--index", arguments->index,
+                        "All skeletons in this folder, or a file that --store wrote");
     command->add_option("--query", arguments->query,
-                        "The model or skeleton that is looked for in the folder");
+                        "The model or skeleton that is looked for there");
+    command->add_option("--store", arguments->store,
+                        "Keep what shapes are compared by in this file: the next time --index "
+                        "takes it, and reads no skeletons");
     command->add_option("--neighbours", arguments->neighbours, "How many of the nearest to print")
         ->capture_default_str()
         ->check(CLI::PositiveNumber);
@@ -225,7 +253,9 @@ void add_match_command(CLI::App& app, const Common&, Run& run) {
         "Examples:\n  zskel match horse.obj bull.obj\n"
         "  zskel match horse.json bull.json --json\n"
         "  zskel match --index skeletons/ --query horse.obj\n"
-        "  zskel match --index skeletons/ --matrix all.csv --dendrogram all.svg");
+        "  zskel match --index skeletons/ --matrix all.csv --dendrogram all.svg\n"
+        "  zskel match --index skeletons/ --store all.idx\n"
+        "  zskel match --index all.idx --query horse.obj");
     command->callback([&run, arguments] { run = [arguments] { return match(*arguments); }; });
 }
 
