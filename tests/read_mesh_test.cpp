@@ -128,7 +128,7 @@ TEST_CASE("read_mesh: what cannot be read is an input error that names the file"
     const ScratchFolder folder;
     CHECK_THROWS_WITH_AS(read_mesh("no/such/file.obj"),
                          "no/such/file.obj: cannot be read: No such file or directory; "
-                         "expected an OBJ, OFF, PLY or STL file",
+                         "expected an OBJ, OFF, PLY, STL, BPT or JSON (surfaces) file",
                          InputError);
     CHECK_THROWS_AS(read_mesh(folder.path()), InputError);
     CHECK_THROWS_AS(read_mesh(folder.write("empty.obj", "")), InputError);

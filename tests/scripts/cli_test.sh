@@ -221,6 +221,28 @@ case_match() {
     refused 3 'all/bad.json' match all/bad.json all/y.json
 }
 
+case_surfaces() {
+    local quick=(--backend ray --face-px 6)
+    run 0 check "$models/teapot.bpt"
+    grep -q 'closed, manifold, oriented, genus 1,' out || fail "no closed pot with a handle: $(cat out)"
+    local fine
+    fine=$(head -n 1 out)
+    run 0 check "$models/teapot.bpt" --chord-error 0.005
+    [[ $(head -n 1 out) != "$fine" ]] || fail "--chord-error changes nothing"
+    cp "$models/teapot.bpt" pot
+    run 0 extract pot "${quick[@]}" -o pot.json
+    echo '{"surfaces": [{"type": "superquadric", "radii": [0.1, 0.1, 1], "exponents": [1, 1]}]}' >rod.surface.json
+    run 0 extract rod.surface.json "${quick[@]}" -o rod.json
+    run 0 match rod.surface.json rod.json "${quick[@]}"
+    run 0 rig rod.surface.json "${quick[@]}" -o rod.glb
+    refused 2 '--chord-error' check "$models/teapot.bpt" --chord-error 0
+    echo '{"surfaces": [{"type": "cone"}]}' >bad.json
+    refused 3 'bad.json: surfaces[0]: type' check bad.json
+    printf '1\n3 3\n0 0 0\n' >bad.bpt
+    refused 3 'bad.bpt:4: ' check bad.bpt
+    refused 3 'pot.json: has no member' extract pot.json -o a.json
+}
+
 case_help() {
     local command
     run 0 --version

@@ -6,7 +6,7 @@
 
 namespace zskel::cli {
 
-void add_check_command(CLI::App& app, const Common&, Run& run) {
+void add_check_command(CLI::App& app, const Common& common, Run& run) {
     struct Arguments {
         std::string model;
         bool as_json = false;
@@ -16,9 +16,9 @@ void add_check_command(CLI::App& app, const Common&, Run& run) {
     auto arguments = std::make_shared<Arguments>();
     add_model_argument(*command, arguments->model);
     command->add_flag("--json", arguments->as_json, "Print JSON");
-    command->callback([&run, arguments] {
-        run = [arguments] {
-            const MeshReport report = check_mesh(read_mesh(arguments->model));
+    command->callback([&run, &common, arguments] {
+        run = [&common, arguments] {
+            const MeshReport report = check_mesh(read_mesh(arguments->model, common.reading));
             print(arguments->as_json ? to_json(report) : to_text(report));
             return ExitCode::Ok;
         };

@@ -7,6 +7,7 @@
 
 #include "zskel/core/error.h"
 #include "zskel/io/picture.h"
+#include "zskel/mesh/read_mesh.h"
 #include "zskel/visibility/backend.h"
 
 namespace zskel::cli {
@@ -16,6 +17,7 @@ struct Common {
     int verbosity = 0;  ///< -q: -1; -v: 1; -vv: 2
     std::string log_format = "text";
     int threads = 0;
+    ReadOptions reading;
     std::string command;  ///< the whole line as typed
 };
 
@@ -34,6 +36,9 @@ void add_rig_command(CLI::App& app, const Common& common, Run& run);
 
 /// Adds the model, which is needed, as the subcommand's next argument.
 CLI::Option* add_model_argument(CLI::App& command, std::string& model);
+
+/// Whether a file is a skeleton as JSON by its name; NAME.surface.json is a surface by formula.
+bool is_skeleton_json(const std::string& path);
 
 /// Adds --backend, --gpu, --face-px and --rays to a subcommand.
 void add_backend_options(CLI::App& command, BackendOptions& options);

@@ -78,8 +78,15 @@ void check_outputs(const std::string& model, const std::vector<std::string>& out
 }
 
 CLI::Option* add_model_argument(CLI::App& command, std::string& model) {
-    return command.add_option("model", model, "OBJ, OFF, PLY or STL; - reads standard input")
+    return command
+        .add_option(
+            "model", model,
+            "OBJ, OFF, PLY or STL; BPT or JSON: surfaces by formula; - reads standard input")
         ->required();
+}
+
+bool is_skeleton_json(const std::string& path) {
+    return path.ends_with(".json") && !path.ends_with(".surface.json");
 }
 
 void add_backend_options(CLI::App& command, BackendOptions& options) {

@@ -136,8 +136,8 @@ SkeletonComparison compare_extracts(const Mesh& mesh, const ExtractOptions& opti
     return compare_skeletons(a, b, b.surface.world_from_model.length_to_model(two_steps));
 }
 
-ExitCode compare(const Arguments& arguments) {
-    const Mesh mesh = read_mesh(arguments.model);
+ExitCode compare(const Arguments& arguments, const Common& common) {
+    const Mesh mesh = read_mesh(arguments.model, common.reading);
     ExtractOptions options;
     BackendOptions tested_options = arguments.tested;
     if (!arguments.method.empty()) {
@@ -172,7 +172,7 @@ ExitCode compare(const Arguments& arguments) {
 
 }  // namespace
 
-void add_compare_command(CLI::App& app, const Common&, Run& run) {
+void add_compare_command(CLI::App& app, const Common& common, Run& run) {
     CLI::App* command = app.add_subcommand(
         "compare", "Measure one backend's cube maps against another's; exit 6 when out of bounds");
     auto arguments = std::make_shared<Arguments>();
@@ -194,7 +194,9 @@ void add_compare_command(CLI::App& app, const Common&, Run& run) {
             [arguments](const std::string& name) { arguments->reference = parse_backend(name); },
             "The backend that is taken for the truth [ray]")
         ->type_name("NAME");
-    command->callback([&run, arguments] { run = [arguments] { return compare(*arguments); }; });
+    command->callback([&run, &common, arguments] {
+        run = [&common, arguments] { return compare(*arguments, common); };
+    });
 }
 
 }  // namespace zskel::cli

@@ -200,7 +200,7 @@ ExitCode deform_model(const Arguments& given, const Common& common) {
     std::unique_ptr<gl::Context> picture_context;
     if (!arguments.strip.empty()) picture_context = open_picture_context();
     Posed posed;
-    posed.mesh = is_demo ? mesh_of(*demo) : read_mesh(arguments.model);
+    posed.mesh = is_demo ? mesh_of(*demo) : read_mesh(arguments.model, common.reading);
     posed.rig = rig_model(posed.mesh, arguments.rig);
     posed.pose =
         read_pose(pose_text, is_demo ? "the demo's pose" : arguments.pose, posed.rig.armature);

@@ -34,10 +34,10 @@ DepthDump look(const Arguments& arguments, DepthProbe& probe) {
     return path[static_cast<std::size_t>(arguments.step < 0 ? last : arguments.step)];
 }
 
-ExitCode depth(const Arguments& arguments) {
+ExitCode depth(const Arguments& arguments, const Common& common) {
     if (arguments.at.empty() == (arguments.vertex < 0))
         throw UsageError("give either --at X,Y,Z or --vertex V");
-    const Mesh mesh = read_mesh(arguments.model);
+    const Mesh mesh = read_mesh(arguments.model, common.reading);
     const auto backend = open_backend(arguments.backend);
     DepthProbe probe(mesh, *backend);
     write_depth_file(arguments.output, look(arguments, probe));
@@ -46,7 +46,7 @@ ExitCode depth(const Arguments& arguments) {
 
 }  // namespace
 
-void add_depth_command(CLI::App& app, const Common&, Run& run) {
+void add_depth_command(CLI::App& app, const Common& common, Run& run) {
     CLI::App* command =
         app.add_subcommand("depth", "Write the cube map that one eye sees: EXR, or PNG to look at");
     auto arguments = std::make_shared<Arguments>();
@@ -71,7 +71,9 @@ void add_depth_command(CLI::App& app, const Common&, Run& run) {
     command->footer(
         "Examples:\n  zskel depth horse.obj --vertex 12 --step -1 -o rest.png\n"
         "  zskel depth horse.obj --at 0,0.1,0 --face-px 128 -o inside.exr");
-    command->callback([&run, arguments] { run = [arguments] { return depth(*arguments); }; });
+    command->callback([&run, &common, arguments] {
+        run = [&common, arguments] { return depth(*arguments, common); };
+    });
 }
 
 }  // namespace zskel::cli

@@ -148,7 +148,7 @@ ExitCode extract(const Arguments& given, const Common& common) {
     }
     check_outputs(arguments.model, {arguments.output.path, arguments.correspondence, arguments.maps,
                                     arguments.picture, arguments.picture_paths});
-    const Mesh mesh = read_mesh(arguments.model);
+    const Mesh mesh = read_mesh(arguments.model, common.reading);
     // A picture that cannot be drawn is known before the work starts, not after.
     std::unique_ptr<gl::Context> picture_context;
     if (!arguments.picture.empty() || !arguments.picture_paths.empty())

@@ -113,6 +113,12 @@ int run_program(int argc, char** argv) {
         ->check(CLI::IsMember({"text", "json"}));
     app.add_option("--threads", common.threads, "Use at most this many threads")
         ->check(CLI::Range(0, 4096));
+    app.add_option(
+           "--chord-error", common.reading.chord_error,
+           "Of surfaces by formula (.bpt, .json): how far their triangles may be from them, "
+           "in diagonals of the bounding box")
+        ->capture_default_str()
+        ->check(positive_length());
     Run run;
     add_extract_command(app, common, run);
     add_convert_command(app, common, run);

@@ -34,13 +34,14 @@ struct Arguments {
     bool as_json = false;
     ExtractOptions extract;
     BackendOptions backend;
+    ReadOptions reading;
 };
 
 using Shape = NamedSignature;
 
 bool is_skeleton(const std::string& path) {
     const std::string extension = std::filesystem::path(path).extension();
-    return extension == ".json" || extension == ".graphml" || extension == ".swc" ||
+    return is_skeleton_json(path) || extension == ".graphml" || extension == ".swc" ||
            extension == ".vtp";
 }
 
@@ -52,7 +53,7 @@ Shape shape_of(const std::string& path, const Arguments& arguments) {
             throw InputError(path + ": has no radii, which shapes are compared by");
         return {path, signature_of(file.graph)};
     }
-    const Mesh mesh = read_mesh(path);
+    const Mesh mesh = read_mesh(path, arguments.reading);
     const BackendOptions options = backend_options_for(mesh, arguments.extract, arguments.backend);
     return {path,
             signature_of(extract_skeleton(mesh, arguments.extract, *open_backend(options)).graph)};
@@ -226,7 +227,7 @@ ExitCode match(const Arguments& arguments) {
 
 }  // namespace
 
-void add_match_command(CLI::App& app, const Common&, Run& run) {
+void add_match_command(CLI::App& app, const Common& common, Run& run) {
     CLI::App* command =
         app.add_subcommand("match", "Compare shapes by their skeletons, whatever their pose");
     auto arguments = std::make_shared<Arguments>();
@@ -256,7 +257,12 @@ void add_match_command(CLI::App& app, const Common&, Run& run) {
         "  zskel match --index skeletons/ --matrix all.csv --dendrogram all.svg\n"
         "  zskel match --index skeletons/ --store all.idx\n"
         "  zskel match --index all.idx --query horse.obj");
-    command->callback([&run, arguments] { run = [arguments] { return match(*arguments); }; });
+    command->callback([&run, &common, arguments] {
+        run = [&common, arguments] {
+            arguments->reading = common.reading;
+            return match(*arguments);
+        };
+    });
 }
 
 }  // namespace zskel::cli

@@ -41,10 +41,6 @@ struct Arguments {
     BackendOptions backend;
 };
 
-bool ends_with(const std::string& path, std::string_view extension) {
-    return std::string_view(path).ends_with(extension);
-}
-
 // The file that a skeleton's JSON names, which lies where that says.
 std::string maps_file_of(const std::string& path) try {
     const std::string bytes = read_input_file(path, "a skeleton (JSON)");
@@ -133,8 +129,8 @@ std::string json_of(const std::vector<Row>& rows) {
 ExitCode reconstruct(const Arguments& arguments, const Common& common) {
     if (arguments.output.empty() && !arguments.table)
         throw UsageError("give --output, or --table for measures alone");
-    const bool from_json = ends_with(arguments.input, ".json");
-    const bool from_maps = from_json || ends_with(arguments.input, ".maps");
+    const bool from_json = is_skeleton_json(arguments.input);
+    const bool from_maps = from_json || arguments.input.ends_with(".maps");
     if (arguments.table && from_maps)
         throw UsageError("--table needs the model itself: it looks again with other maps");
     check_outputs(arguments.input, {arguments.output, arguments.points});
@@ -145,11 +141,11 @@ ExitCode reconstruct(const Arguments& arguments, const Common& common) {
     if (from_maps) {
         const std::string file = from_json ? maps_file_of(arguments.input) : arguments.input;
         maps = read_visibility_maps(read_input_file(file, "visibility maps"), file);
-        if (!arguments.original.empty()) original = read_mesh(arguments.original);
+        if (!arguments.original.empty()) original = read_mesh(arguments.original, common.reading);
     } else {
         if (!arguments.original.empty())
             throw UsageError("--original goes with maps; here the model is at hand");
-        original = read_mesh(arguments.input);
+        original = read_mesh(arguments.input, common.reading);
         backend = backend_options_for(*original, arguments.extract, backend);
         graph = extract_skeleton(*original, arguments.extract, *open_backend(backend)).graph;
         maps = maps_of(*original, graph, backend, arguments.map_px);

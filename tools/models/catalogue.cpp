@@ -4,6 +4,7 @@
 #include "plant.h"
 #include "primitives.h"
 #include "quadrupeds.h"
+#include "teapot.h"
 #include "vessels.h"
 
 namespace zskel::models {
@@ -28,6 +29,7 @@ const std::vector<Recipe>& catalogue() {
         recipe("plant", shape_plant, {.faces = 16000, .ends = 15}, 8),
         {"vessels", [] { return make_vessels("vessels", 0); }},
         {"vessels_open", [] { return make_vessels("vessels_open", 4); }},
+        {"teapot", make_teapot},
         {"capsule", make_capsule},
         {"y", make_y},
         {"torus", make_torus},

@@ -45,7 +45,8 @@ int main(int argc, char** argv) {
     for (const models::Recipe& recipe : models::catalogue()) {
         known.push_back(recipe.name);
     }
-    app.add_option("--out", folder, "Folder for NAME.obj and NAME.skeleton.json")->required();
+    app.add_option("--out", folder, "Folder for NAME.obj (or NAME.bpt) and NAME.skeleton.json")
+        ->required();
     app.add_option("names", names, "What to make; everything when none is named")
         ->check(CLI::IsMember(known));
     app.add_flag("--check", is_checked,

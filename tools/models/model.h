@@ -1,11 +1,13 @@
 #pragma once
 
+#include "patches.h"
 #include "shape.h"
 #include "triangles.h"
 #include "truth.h"
 
 #include <cstddef>
 #include <string>
+#include <vector>
 
 namespace zskel::models {
 
@@ -25,6 +27,8 @@ struct Model {
     Triangles mesh;
     Truth truth;
     Expected expected;
+    std::vector<BezierPatch> patches =
+        {};  ///< That the mesh was made from, which is then not kept.
 };
 
 /// Scales the shape to the unit cube, and meshes it with about `expected.faces` triangles.

@@ -37,6 +37,20 @@ std::string obj_text(const Model& model) {
     return text;
 }
 
+std::string bpt_text(const Model& model) {
+    std::string text = fmt::format("{}\n", model.patches.size());
+    for (const BezierPatch& patch : model.patches) {
+        text += "3 3\n";
+        for (const auto& row : patch) {
+            for (const glm::dvec3& p : row) {
+                text += fmt::format("{} {} {}\n", short_number(p.x), short_number(p.y),
+                                    short_number(p.z));
+            }
+        }
+    }
+    return text;
+}
+
 std::string skeleton_text(const Model& model) {
     nlohmann::ordered_json nodes = nlohmann::ordered_json::array();
     for (const Truth::Node& node : model.truth.nodes) {
@@ -70,7 +84,11 @@ std::string skeleton_text(const Model& model) {
 }  // namespace
 
 void write_model(const Model& model, const std::filesystem::path& folder) {
-    write_text(folder / (model.name + ".obj"), obj_text(model));
+    if (model.patches.empty()) {
+        write_text(folder / (model.name + ".obj"), obj_text(model));
+    } else {
+        write_text(folder / (model.name + ".bpt"), bpt_text(model));
+    }
     write_text(folder / (model.name + ".skeleton.json"), skeleton_text(model));
 }
 

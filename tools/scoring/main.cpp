@@ -39,7 +39,8 @@ struct Arguments {
 
 bool is_model(const fs::path& path) {
     const std::string extension = path.extension().string();
-    return extension == ".obj" || extension == ".off" || extension == ".ply" || extension == ".stl";
+    return extension == ".obj" || extension == ".off" || extension == ".ply" ||
+           extension == ".stl" || extension == ".bpt";
 }
 
 // Folders become the models in them, by name.

@@ -279,7 +279,7 @@ Image draw_strip(gl::Context& context, const std::vector<Frame>& frames,
         all.positions.insert(all.positions.end(), frame.surface.positions.begin(),
                              frame.surface.positions.end());
     const Camera camera = scene_camera(all, options);
-    const auto stride = static_cast<std::ptrdiff_t>(3 * options.width_px);
+    const std::ptrdiff_t stride = std::ptrdiff_t{3} * options.width_px;
     Image strip =
         make_image(options.width_px * static_cast<int>(frames.size()), options.height_px, 3, 255);
     for (std::size_t f = 0; f < frames.size(); ++f) {

@@ -21,6 +21,20 @@ Mesh read_ply(std::string_view bytes, std::string_view name);
 /// STL, ascii or binary; corners at equal positions become one vertex, numbered as first seen.
 Mesh read_stl(std::string_view bytes, std::string_view name);
 
+/// Bezier patches (.bpt): the number of patches; of each its two degrees, and its control points
+/// row by row. Divided as `tessellate` does.
+Mesh read_bpt(std::string_view bytes, std::string_view name, double chord_error);
+
+/// Surfaces by formula (JSON), divided as `tessellate` does:
+///   {"surfaces": [
+///     {"type": "bezier", "patches": [[[[x, y, z], ...], ...], ...]},        rows of control points
+///     {"type": "nurbs", "degrees": [3, 2], "knots": [[...], [...]],        along rows, across them
+///      "points": [[[x, y, z, weight], ...], ...]},                         rows of control points
+///     {"type": "superquadric", "radii": [1, 1, 2], "exponents": [1, 0.3],
+///      "center": [0, 0, 0], "turn": 30, "axis": [1, 0, 0]}]}               from center on:
+///      optional
+Mesh read_surfaces(std::string_view bytes, std::string_view name, double chord_error);
+
 /// True when the length is the one that a binary STL's own count of facets asks for.
 bool is_binary_stl(std::string_view bytes);
 

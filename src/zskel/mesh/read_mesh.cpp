@@ -21,7 +21,7 @@
 namespace zskel {
 namespace {
 
-constexpr std::string_view kForms = "OBJ, OFF, PLY or STL";
+constexpr std::string_view kForms = "OBJ, OFF, PLY, STL, BPT or JSON (surfaces)";
 constexpr std::array<std::string_view, 5> kOffExtensions = {".off", ".coff", ".noff", ".cnoff",
                                                             ".stoff"};
 /// First words by which an OBJ file without its extension is told.
@@ -39,6 +39,8 @@ std::optional<MeshFormat> format_of_extension(const std::string& path) {
     if (extension == ".obj") return MeshFormat::Obj;
     if (extension == ".ply") return MeshFormat::Ply;
     if (extension == ".stl") return MeshFormat::Stl;
+    if (extension == ".bpt") return MeshFormat::Bpt;
+    if (extension == ".json") return MeshFormat::SurfaceJson;
     if (std::find(kOffExtensions.begin(), kOffExtensions.end(), extension) != kOffExtensions.end())
         return MeshFormat::Off;
     return std::nullopt;
@@ -54,6 +56,10 @@ MeshFormat format_of_content(std::string_view bytes, const std::string& name) {
     }
     if (std::find(kObjWords.begin(), kObjWords.end(), word) != kObjWords.end())
         return MeshFormat::Obj;
+    if (word.starts_with('{')) return MeshFormat::SurfaceJson;
+    if (!word.empty() &&
+        std::all_of(word.begin(), word.end(), [](char c) { return c >= '0' && c <= '9'; }))
+        return MeshFormat::Bpt;
     throw InputError(
         fmt::format("{}: neither the name nor the content, which begins with {}, is that "
                     "of {}",
@@ -62,18 +68,19 @@ MeshFormat format_of_content(std::string_view bytes, const std::string& name) {
 
 }  // namespace
 
-Mesh read_mesh(const std::string& path) try {
+Mesh read_mesh(const std::string& path, const ReadOptions& options) try {
     const std::string bytes = read_input_file(path, fmt::format("an {} file", kForms));
     std::optional<MeshFormat> format = format_of_extension(path);
     if (!format) format = format_of_content(bytes, path);
-    return parse_mesh(std::as_bytes(std::span(bytes)), *format, path);
+    return parse_mesh(std::as_bytes(std::span(bytes)), *format, path, options);
 } catch (const std::bad_alloc&) {
     throw InputError(fmt::format("{}: the model takes more memory than there is", path));
 } catch (const std::length_error&) {
     throw InputError(fmt::format("{}: the model takes more memory than there can be", path));
 }
 
-Mesh parse_mesh(std::span<const std::byte> bytes, MeshFormat format, const std::string& name) {
+Mesh parse_mesh(std::span<const std::byte> bytes, MeshFormat format, const std::string& name,
+                const ReadOptions& options) {
     if (bytes.empty())
         throw InputError(fmt::format("{}: the file is empty; expected a model", name));
     const std::string_view text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
@@ -90,6 +97,12 @@ Mesh parse_mesh(std::span<const std::byte> bytes, MeshFormat format, const std::
             break;
         case MeshFormat::Stl:
             mesh = read_stl(text, name);
+            break;
+        case MeshFormat::Bpt:
+            mesh = read_bpt(text, name, options.chord_error);
+            break;
+        case MeshFormat::SurfaceJson:
+            mesh = read_surfaces(text, name, options.chord_error);
             break;
     }
     mesh.hash = XXH3_64bits(bytes.data(), bytes.size());
