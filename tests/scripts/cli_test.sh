@@ -243,6 +243,23 @@ case_surfaces() {
     refused 3 'pot.json: has no member' extract pot.json -o a.json
 }
 
+case_report() {
+    local quick=(--backend ray --face-px 6)
+    mkdir 'y<' && cp "$models/y.obj" 'y</script>&.obj'
+    run 0 report 'y</script>&.obj' "${quick[@]}" -o y.html
+    grep -qF '<title>The skeleton of script&gt;&amp;.obj</title>' y.html || fail "the name is not escaped"
+    grep -qE '@[A-Z]+@' y.html && fail "something was not put in"
+    sed -n 's|.*<script type="application/json" id="skeleton">\(.*\)|\1|p' y.html | head -c 30 | grep -q '^{' || fail "no skeleton"
+    [[ $(grep -c '</script>' y.html) == 4 ]] || fail "a script ends early"
+    run 0 report "$models/y.obj" "${quick[@]}" --map-px 8 -o -
+    [[ $(head -c 15 out) == '<!DOCTYPE html>' ]] || fail "no page on standard output"
+    refused 2 '--output' report "$models/y.obj"
+    refused 3 'none.obj' report none.obj -o a.html
+    refused 5 'nowhere' report "$models/y.obj" -o nowhere/a.html
+    cp "$models/y.obj" y.obj
+    refused 2 'y.obj' report y.obj -o y.obj
+}
+
 case_help() {
     local command
     run 0 --version

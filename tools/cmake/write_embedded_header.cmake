@@ -12,7 +12,9 @@ foreach(file IN LISTS files)
         string(APPEND constant "${first}${rest}")
     endforeach()
     file(READ "${file}" body)
-    string(APPEND text "inline constexpr std::string_view ${constant} = R\"embedded(${body})embedded\";\n")
+    # Sized by sizeof: to look for the end of a long text is more than a constant expression may do.
+    string(APPEND text "inline const char ${constant}Text[] = R\"embedded(${body})embedded\";\n"
+        "inline constexpr std::string_view ${constant}(${constant}Text, sizeof(${constant}Text) - 1);\n")
 endforeach()
 string(APPEND text "}  // namespace zskel::${NAME}\n")
 file(WRITE "${OUT}" "${text}")

@@ -7,6 +7,7 @@
 
 #include "zskel/core/error.h"
 #include "zskel/io/little_endian.h"
+#include "zskel/io/packing.h"
 
 namespace zskel {
 namespace {
@@ -14,22 +15,6 @@ namespace {
 constexpr std::uint32_t kGlbMagic = 0x46546C67;   // "glTF"
 constexpr std::uint32_t kJsonChunk = 0x4E4F534A;  // "JSON"
 constexpr std::uint32_t kBinChunk = 0x004E4942;   // "BIN"
-
-/// Appends a value's bytes, the lowest first.
-std::string base64(std::string_view bytes) {
-    constexpr std::string_view kDigits =
-        "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-    std::string out;
-    for (std::size_t i = 0; i < bytes.size(); i += 3) {
-        const std::size_t count = std::min<std::size_t>(3, bytes.size() - i);
-        std::uint32_t group = 0;
-        for (std::size_t k = 0; k < 3; ++k)
-            group = group << 8 | (k < count ? static_cast<unsigned char>(bytes[i + k]) : 0u);
-        for (std::size_t k = 0; k < 4; ++k)
-            out += k <= count ? kDigits[group >> (18 - 6 * k) & 63u] : '=';
-    }
-    return out;
-}
 
 std::vector<float> flat(const std::vector<DVec3>& points) {
     std::vector<float> values;

@@ -9,6 +9,7 @@
 
 #include "zskel/core/error.h"
 #include "zskel/io/little_endian.h"
+#include "zskel/io/packing.h"
 #include "zskel/mesh/byte_cursor.h"
 #include "zskel/visibility/cube_map.h"
 
@@ -67,18 +68,6 @@ void append_texels(std::string& out, const std::vector<float>& depths, const Dep
         before = code;
     }
     out += high;
-}
-
-std::string packed(const std::string& bytes) {
-    uLongf size = compressBound(static_cast<uLong>(bytes.size()));
-    std::string out(size, '\0');
-    const int status = compress2(reinterpret_cast<Bytef*>(out.data()), &size,
-                                 reinterpret_cast<const Bytef*>(bytes.data()),
-                                 static_cast<uLong>(bytes.size()), Z_BEST_COMPRESSION);
-    if (status != Z_OK)
-        throw Error(ExitCode::Internal, fmt::format("zlib: packing failed with {}", status));
-    out.resize(size);
-    return out;
 }
 
 // What the packed part holds once it is unpacked.
