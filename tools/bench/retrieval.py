@@ -19,6 +19,8 @@ import time
 
 import numpy as np
 
+from obj_file import read_obj, write_obj
+
 MODELS = pathlib.Path(__file__).resolve().parents[2] / "models"
 CREATURES = ["horse", "bull", "frog", "mouse", "cobra", "octopus", "hand", "plant", "y"]
 VARIANTS = 10
@@ -31,19 +33,6 @@ D2_BINS = 64
 
 def run(*arguments):
     subprocess.run([str(a) for a in arguments], check=True)
-
-
-def read_obj(path):
-    rows = [line.split() for line in open(path)]
-    vertices = np.array([[float(x) for x in r[1:4]] for r in rows if r and r[0] == "v"])
-    faces = np.array([[int(x.split("/")[0]) - 1 for x in r[1:4]] for r in rows if r and r[0] == "f"])
-    return vertices, faces
-
-
-def write_obj(path, vertices, faces):
-    with open(path, "w") as out:
-        out.writelines("v %r %r %r\n" % tuple(map(float, v)) for v in vertices)
-        out.writelines("f %d %d %d\n" % tuple(f + 1) for f in faces)
 
 
 def bent(program, model, branches, path, rng):
