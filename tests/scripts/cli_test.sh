@@ -221,6 +221,33 @@ case_match() {
     refused 3 'all/bad.json' match all/bad.json all/y.json
 }
 
+case_limits() {
+    local slow=(--method paper --backend ray --face-px 16 --step 0.00001 --max-steps 100000) code start
+    refused 7 'more than the 11 that --max-faces allows' extract cube.obj --max-faces 11 -o a.json
+    run 0 check cube.obj --max-faces 12
+    start=$SECONDS
+    refused 7 '--timeout' --timeout 1 extract cube.obj "${slow[@]}" -o a.json
+    ((SECONDS - start < 10)) || fail "stopped after $((SECONDS - start)) s"
+    run 0 --timeout 600 check cube.obj
+    refused 2 '--timeout' --timeout -1 check cube.obj
+    refused 2 '--max-memory' --max-memory x check cube.obj
+    # Each bound ends in one of two ways, and in no third.
+    local megabytes
+    for megabytes in 1 10 30 60 100 200 400; do
+        code=0
+        label="--max-memory $megabytes"
+        "$zskel" --threads 2 --max-memory $megabytes extract "$models/vessels.obj" --backend cpu -o b.json >out 2>err || code=$?
+        ((code == 0 || code == 7)) || fail "exit code $code: $(tail -n 1 err)"
+        if ((code == 7)); then
+            [[ ! -e b.json ]] || fail "a file is there"
+            (($(wc -l <err) == 1)) || fail "standard error is not one line: $(cat err)"
+        fi
+        rm -f b.json
+    done
+    ((code == 0)) || fail "400 megabytes are not enough"
+    only_files . cube.obj out err
+}
+
 case_surfaces() {
     local quick=(--backend ray --face-px 6)
     run 0 check "$models/teapot.bpt"

@@ -6,26 +6,17 @@
 #include <fmt/format.h>
 
 #include <cstdio>
-#include <filesystem>
 #include <memory>
 #include <string>
 #include <vector>
 
 #include "read_back.h"
-#include "zskel/compare.h"
+#include "subject.h"
 #include "zskel/core/error.h"
 #include "zskel/core/parallel.h"
-#include "zskel/mesh/read_mesh.h"
-#include "zskel/mesh/solid.h"
 
 namespace zskel::bench {
 namespace {
-
-struct Subject {
-    std::string name;
-    Surface surface;
-    std::vector<Vec3> eyes;
-};
 
 struct Source {
     const char* name;
@@ -49,22 +40,6 @@ std::unique_ptr<Backend> open(const Source& source) {
     if (source.face_px > 0) options.face_px = source.face_px;
     options.rays = source.rays;
     return open_backend(options);
-}
-
-Subject load(const std::string& path, Backend& backend) {
-    const std::vector<Solid> solids =
-        split_solids(prepare_surface(read_mesh(path), WorldSize::Spread));
-    const auto largest =
-        std::max_element(solids.begin(), solids.end(), [](const Solid& l, const Solid& r) {
-            return l.surface.triangles.size() < r.surface.triangles.size();
-        });
-    Subject subject{fmt::format("{}:{}", std::filesystem::path(path).stem().string(),
-                                largest->surface.triangles.size()),
-                    largest->surface,
-                    {}};
-    const auto source = backend.prepare(subject.surface);
-    subject.eyes = comparison_eyes(subject.surface, *source, kEyes, {});
-    return subject;
 }
 
 void look(benchmark::State& state, const Subject& subject, const Source& source) {
@@ -109,7 +84,7 @@ int run(int argc, char** argv) {
         const auto backend = open(kSources[0]);
         std::vector<std::unique_ptr<Subject>> subjects;
         for (int i = 1; i < argc; ++i)
-            subjects.push_back(std::make_unique<Subject>(load(argv[i], *backend)));
+            subjects.push_back(std::make_unique<Subject>(load_subject(argv[i], *backend, kEyes)));
         for (const auto& subject : subjects) {
             for (const Source& source : kSources) {
                 const std::string name =

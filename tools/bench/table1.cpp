@@ -5,12 +5,12 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
-#include <chrono>
 #include <cstdio>
 #include <filesystem>
 #include <functional>
 
 #include "read_back.h"
+#include "seconds_of.h"
 #include "zskel/core/error.h"
 #include "zskel/core/log.h"
 #include "zskel/extract.h"
@@ -37,12 +37,6 @@ constexpr PaperRow kPaper[] = {
     {"horse_8k", 7984, 3994, 1028, 30, 29},
 };
 constexpr double kRanges[] = {0.03, 0.04, 0.05, 0.06, 0.08, 0.1};
-
-double seconds_of(const std::function<void()>& work) {
-    const auto start = std::chrono::steady_clock::now();
-    work();
-    return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-}
 
 std::unique_ptr<Backend> backend_of(BackendKind kind, int face_px) {
     BackendOptions options;

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "run_limits.h"
 #include "zskel/core/error.h"
 #include "zskel/io/picture.h"
 #include "zskel/mesh/read_mesh.h"
@@ -18,6 +19,7 @@ struct Common {
     std::string log_format = "text";
     int threads = 0;
     ReadOptions reading;
+    Limits limits;
     std::string command;  ///< the whole line as typed
 };
 

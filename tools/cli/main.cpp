@@ -20,6 +20,7 @@ namespace {
 
 constexpr const char* kFooter = R"(Exit codes:
   0 fine   1 internal error   2 usage   3 bad input   4 no usable backend   5 cannot write   6 a check failed
+  7 a limit reached
 
 Examples:
   zskel extract models/horse.obj -o horse.json --picture horse.png
@@ -49,6 +50,7 @@ void set_up(const Common& common) {
                                                    : LogLevel::Debug;
     set_log(level, common.log_format == "json" ? LogFormat::Json : LogFormat::Text);
     set_thread_limit(common.threads);
+    set_limits(common.limits);
 }
 
 // Known before the line is read, so that an error in the line itself has the form asked for.
@@ -119,6 +121,10 @@ int run_program(int argc, char** argv) {
            "in diagonals of the bounding box")
         ->capture_default_str()
         ->check(positive_length());
+    app.add_option("--max-faces", common.reading.max_faces,
+                   "Refuse models of more triangles, with exit code 7; 0: no bound")
+        ->capture_default_str();
+    add_limit_options(app, common.limits);
     Run run;
     add_extract_command(app, common, run);
     add_convert_command(app, common, run);
@@ -139,7 +145,7 @@ int run_program(int argc, char** argv) {
     } catch (const Error& error) {
         return fail(error.code(), error.what());
     } catch (const std::bad_alloc&) {
-        return fail(ExitCode::Internal, "out of memory");
+        return fail(ExitCode::Limit, "more memory is needed than there is, or --max-memory allows");
     } catch (const std::exception& error) {
         return fail(ExitCode::Internal, error.what());
     }

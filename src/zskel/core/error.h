@@ -6,7 +6,16 @@
 namespace zskel {
 
 /// Exit codes of the command-line program; each error type carries its own.
-enum class ExitCode { Ok = 0, Internal = 1, Usage = 2, Input = 3, Backend = 4, Io = 5, Check = 6 };
+enum class ExitCode {
+    Ok = 0,
+    Internal = 1,
+    Usage = 2,
+    Input = 3,
+    Backend = 4,
+    Io = 5,
+    Check = 6,
+    Limit = 7
+};
 
 /// Base of everything that zskel throws; the text names the file or element and says what to do.
 class Error : public std::runtime_error {
@@ -40,6 +49,12 @@ class GlError : public Error {
 class IoError : public Error {
   public:
     explicit IoError(const std::string& text) : Error(ExitCode::Io, text) {}
+};
+
+/// More time, memory or faces than were allowed, or more memory than there is.
+class LimitError : public Error {
+  public:
+    explicit LimitError(const std::string& text) : Error(ExitCode::Limit, text) {}
 };
 
 }  // namespace zskel

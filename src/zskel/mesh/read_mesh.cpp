@@ -74,9 +74,9 @@ Mesh read_mesh(const std::string& path, const ReadOptions& options) try {
     if (!format) format = format_of_content(bytes, path);
     return parse_mesh(std::as_bytes(std::span(bytes)), *format, path, options);
 } catch (const std::bad_alloc&) {
-    throw InputError(fmt::format("{}: the model takes more memory than there is", path));
+    throw LimitError(fmt::format("{}: the model takes more memory than there is", path));
 } catch (const std::length_error&) {
-    throw InputError(fmt::format("{}: the model takes more memory than there can be", path));
+    throw LimitError(fmt::format("{}: the model takes more memory than there can be", path));
 }
 
 Mesh parse_mesh(std::span<const std::byte> bytes, MeshFormat format, const std::string& name,
@@ -104,6 +104,10 @@ Mesh parse_mesh(std::span<const std::byte> bytes, MeshFormat format, const std::
         case MeshFormat::SurfaceJson:
             mesh = read_surfaces(text, name, options.chord_error);
             break;
+    }
+    if (options.max_faces > 0 && mesh.triangles.size() > options.max_faces) {
+        throw LimitError(fmt::format("{}: {} triangles, more than the {} that --max-faces allows",
+                                     name, mesh.triangles.size(), options.max_faces));
     }
     mesh.hash = XXH3_64bits(bytes.data(), bytes.size());
     return mesh;

@@ -13,6 +13,7 @@ enum class MeshFormat { Obj, Off, Ply, Stl, Bpt, SurfaceJson };
 struct ReadOptions {
     /// Of surfaces by formula: how far their triangles may be from them, in diagonals.
     double chord_error = 0.0005;
+    std::size_t max_faces = 0;  ///< triangles; 0: as many as can be numbered
 };
 
 /// Reads a mesh file: OBJ, OFF (COFF, NOFF, ... too), PLY (ascii, binary) or STL (ascii, binary;
@@ -22,7 +23,7 @@ struct ReadOptions {
 /// @param path  a file, or "-" for standard input.
 /// @return      the mesh in model space; polygons triangulated; the input's vertex numbers kept.
 /// @throws InputError  naming file, line or byte, and value, on anything malformed: nothing is
-/// guessed.
+/// guessed. LimitError for more faces than allowed, or than memory holds.
 Mesh read_mesh(const std::string& path, const ReadOptions& options = {});
 
 /// The same from bytes already in memory; `name` stands in messages.

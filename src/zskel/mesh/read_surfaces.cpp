@@ -28,7 +28,7 @@ void check_size(const JsonPlace& place, std::size_t expected) {
 
 // Rows of points, all as long.
 JsonPlace row_of(const JsonPlace& points, std::size_t row) {
-    const JsonPlace place = points.at(row);
+    JsonPlace place = points.at(row);
     if (place.array_size() != points.at(std::size_t{0}).array_size() || place.array_size() < 2)
         place.fail("a row as long as the first, of two points or more");
     return place;

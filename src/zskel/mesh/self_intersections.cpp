@@ -1,12 +1,11 @@
 #include "zskel/mesh/self_intersections.h"
 
-#include <embree3/rtcore.h>
-
 #include <algorithm>
 #include <atomic>
 #include <cmath>
 #include <limits>
-#include <memory>
+
+#include "zskel/core/embree.h"
 
 namespace zskel {
 namespace {
@@ -89,10 +88,8 @@ void bound(const RTCBoundsFunctionArguments* arguments) {
 std::size_t count_crossing_triangles(const std::vector<DVec3>& positions,
                                      const std::vector<Triangle>& triangles) {
     Triangles all{positions, triangles, std::vector<std::atomic<bool>>(triangles.size())};
-    const std::unique_ptr<RTCDeviceTy, decltype(&rtcReleaseDevice)> device(rtcNewDevice(nullptr),
-                                                                           rtcReleaseDevice);
-    const std::unique_ptr<RTCSceneTy, decltype(&rtcReleaseScene)> scene(rtcNewScene(device.get()),
-                                                                        rtcReleaseScene);
+    const EmbreeDevice device = open_embree();
+    const EmbreeHierarchy scene(rtcNewScene(device.get()));
     RTCGeometry geometry = rtcNewGeometry(device.get(), RTC_GEOMETRY_TYPE_USER);
     rtcSetGeometryUserPrimitiveCount(geometry, static_cast<unsigned>(triangles.size()));
     rtcSetGeometryUserData(geometry, &all);
@@ -100,7 +97,7 @@ std::size_t count_crossing_triangles(const std::vector<DVec3>& positions,
     rtcCommitGeometry(geometry);
     rtcAttachGeometry(scene.get(), geometry);
     rtcReleaseGeometry(geometry);
-    rtcCommitScene(scene.get());
+    build_hierarchy(scene.get(), device.get());
     rtcCollide(scene.get(), scene.get(), visit_pairs, &all);
     return static_cast<std::size_t>(std::count(all.crosses.begin(), all.crosses.end(), true));
 }

@@ -1,22 +1,15 @@
 #include "zskel/visibility/embree_scene.h"
 
-#include <fmt/format.h>
-
 #include <cstring>
-
-#include "zskel/core/error.h"
+#include <new>
 
 namespace zskel {
 
-EmbreeScene::EmbreeScene(const Surface& surface, Shape shape) : device_(rtcNewDevice(nullptr)) {
-    if (device_ == nullptr) {
-        throw Error(ExitCode::Backend, fmt::format("Embree gives no device (error {})",
-                                                   static_cast<int>(rtcGetDeviceError(nullptr))));
-    }
-    scene_ = rtcNewScene(device_);
+EmbreeScene::EmbreeScene(const Surface& surface, Shape shape)
+    : device_(open_embree()), scene_(rtcNewScene(device_.get())) {
     const auto shaped = shape == Shape::Compact ? RTC_SCENE_FLAG_COMPACT : RTC_SCENE_FLAG_NONE;
-    rtcSetSceneFlags(scene_, static_cast<RTCSceneFlags>(RTC_SCENE_FLAG_ROBUST | shaped));
-    RTCGeometry geometry = rtcNewGeometry(device_, RTC_GEOMETRY_TYPE_TRIANGLE);
+    rtcSetSceneFlags(scene_.get(), static_cast<RTCSceneFlags>(RTC_SCENE_FLAG_ROBUST | shaped));
+    RTCGeometry geometry = rtcNewGeometry(device_.get(), RTC_GEOMETRY_TYPE_TRIANGLE);
     // Embree reads 16 bytes at the last vertex, so positions go through a padded buffer of its own.
     void* vertices = rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3,
                                              sizeof(Vec3), surface.positions.size());
@@ -26,14 +19,9 @@ EmbreeScene::EmbreeScene(const Surface& surface, Shape shape) : device_(rtcNewDe
                                surface.triangles.data(), 0, sizeof(Triangle),
                                surface.triangles.size());
     rtcCommitGeometry(geometry);
-    rtcAttachGeometry(scene_, geometry);
+    rtcAttachGeometry(scene_.get(), geometry);
     rtcReleaseGeometry(geometry);
-    rtcCommitScene(scene_);
-}
-
-EmbreeScene::~EmbreeScene() {
-    rtcReleaseScene(scene_);
-    rtcReleaseDevice(device_);
+    build_hierarchy(scene_.get(), device_.get());
 }
 
 }  // namespace zskel

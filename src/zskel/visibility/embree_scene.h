@@ -1,10 +1,9 @@
 #pragma once
 
-#include <embree3/rtcore.h>
-
 #include <algorithm>
 #include <span>
 
+#include "zskel/core/embree.h"
 #include "zskel/mesh/surface.h"
 
 namespace zskel {
@@ -15,15 +14,12 @@ class EmbreeScene {
   public:
     enum class Shape { Fast, Compact };  ///< compact: 25 bytes a triangle less, as slow or slower
     EmbreeScene(const Surface& surface, Shape shape);
-    ~EmbreeScene();
-    EmbreeScene(const EmbreeScene&) = delete;
-    EmbreeScene& operator=(const EmbreeScene&) = delete;
 
-    RTCScene get() const { return scene_; }
+    RTCScene get() const { return scene_.get(); }
 
   private:
-    RTCDevice device_ = nullptr;
-    RTCScene scene_ = nullptr;
+    EmbreeDevice device_;
+    EmbreeHierarchy scene_;
 };
 
 /// Casts rays from one point in unit directions, 16 at a time, and tells `take(ray, distance,

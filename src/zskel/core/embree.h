@@ -1,0 +1,22 @@
+#pragma once
+
+#include <embree3/rtcore.h>
+
+#include <memory>
+
+namespace zskel {
+
+struct EmbreeRelease {
+    void operator()(RTCDevice device) const { rtcReleaseDevice(device); }
+    void operator()(RTCScene scene) const { rtcReleaseScene(scene); }
+};
+using EmbreeDevice = std::unique_ptr<RTCDeviceTy, EmbreeRelease>;
+using EmbreeHierarchy = std::unique_ptr<RTCSceneTy, EmbreeRelease>;
+
+/// @throws std::bad_alloc; Error with ExitCode::Backend for any other reason.
+EmbreeDevice open_embree();
+
+/// Builds the hierarchy over what is attached. @throws std::bad_alloc.
+void build_hierarchy(RTCScene scene, RTCDevice device);
+
+}  // namespace zskel
