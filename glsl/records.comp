@@ -1,20 +1,29 @@
 #version 450 core
 
 // One workgroup an eye: its cube map is drawn into shared memory, and only the eye's record leaves.
-// The map is a maximum of 1 / depth_axial, so that triangles may come in any order; they come in
-// shells from near to far, so that what is hidden already is left out by the box. What a texel sees
-// is found by drawing once more, for the triangle that has the texel's very depth.
-layout(local_size_x = 128) in;
+// The map is a maximum of 1 / depth_axial, so that triangles may come in any order. Groups of blocks
+// of triangles whose boxes may show give blocks, on faces where these may show; those give pieces,
+// triangles that may hold a texel's centre, and large pieces give patches that teams of threads share:
+// what few threads find is gathered until there is some for all. What a texel sees is found by
+// drawing once more, for the triangle that has the texel's very depth.
+#ifndef kThreads  // of a workgroup, said where the shader is compiled, and how many texels a map has
+#define kThreads 256u
+#define kTexels 1536u
+#endif
+layout(local_size_x = kThreads) in;
 
-const uint kThreads = gl_WorkGroupSize.x;
-const uint kMostPx = 16u;
 const uint kBlock = 16u;          // triangles
 const float kLeastAxial = 1e-12;  // corners nearer than this to the plane through the eye count as behind it
 const float kSlack = 3e-4;        // share of a face by which boxes are widened, against rounding
-const float kFirstShell = 0.02;   // world units
-const float kShellRatio = 1.6;
-const int kShells = 11;           // the last is without end
 const uint kNone = 0xFFFFFFFFu;
+const uint kGathered = 2u * kThreads;
+const uint kFaces = 6u;
+const int kSmall = 6;     // texels that one thread looks at by itself
+const uint kTeam = 16u;   // threads that share a larger patch
+const uint kWords = 16u;  // of such a patch
+const uint kPatches = 32u;
+const uint kLanes = 32u;  // sums that are kept side by side
+const int kSums = 12;
 #define kInfinity uintBitsToFloat(0x7F800000u)
 
 struct TriangleBlock {
@@ -51,12 +60,18 @@ uniform float ahead_cosine;
 uniform float grazing_cosine;
 uniform mat3 face_from_world[6];
 
-shared uint depth[6u * kMostPx * kMostPx];  // bits of 1 / depth_axial; 0 where nothing is seen
-shared uint seen[6u * kMostPx * kMostPx];   // the lowest triangle at that depth
-shared uint listed[kThreads];               // groups that may show
-shared uint listed_count;
+shared uint depth[kTexels];           // bits of 1 / depth_axial; 0 where nothing is seen
+shared uint seen[kTexels];            // the lowest triangle at that depth
+shared uint groups_listed[kThreads];  // that may show on a face: number, and the face in three bits
+shared uint group_count;
+shared uint blocks[kGathered];  // likewise
+shared uint block_count;
+shared uvec2 pieces[kGathered];  // block and lane; face and texels to look at
+shared uint piece_count;
+shared float scratch[kPatches * kWords];  // large patches; sums at the end
+shared uint patch_count;
+shared uint ahead_bits;
 shared uint is_cut_short;
-shared float sums[12][kThreads];
 
 uint thread = gl_LocalInvocationIndex;
 vec3 eye = eyes[gl_WorkGroupID.x].xyz;
@@ -78,43 +93,39 @@ ivec4 texels_between(vec2 low, vec2 high) {
     return ivec4(max(first, vec2(0.0)), min(last, vec2(float(face_px - 1))));
 }
 
-// Whether a box, seen from the eye, holds a texel's centre at which nothing is nearer than all of it.
-bool may_show(vec3 low, vec3 high) {
-    for (int face = 0; face < 6; ++face) {
-        vec3 a = face_from_world[face] * low;
-        vec3 b = face_from_world[face] * high;
-        vec3 lo = min(a, b);
-        vec3 hi = max(a, b);
-        if (hi.z <= 0.0) continue;
-        precise float near_inverse = lo.z > kLeastAxial ? 1.0 / lo.z : 1.0 / kLeastAxial;
-        float far_inverse = 1.0 / hi.z;
-        // Clamped: the products of a box about the eye's own plane overflow an integer.
-        vec2 first = clamp(lo.xy * mix(vec2(far_inverse), vec2(near_inverse), lessThan(lo.xy, vec2(0.0))), -2.0, 2.0);
-        vec2 last = clamp(hi.xy * mix(vec2(far_inverse), vec2(near_inverse), greaterThan(hi.xy, vec2(0.0))), -2.0, 2.0);
-        ivec4 rect = texels_between(first, last);
-        uint bound = floatBitsToUint(near_inverse * 1.00001);
-        for (int row = rect.y; row <= rect.w; ++row) {
-            for (int column = rect.x; column <= rect.z; ++column)
-                if (depth[texel_index(face, row, column)] <= bound) return true;
-        }
+// Whether a box, seen from the eye, holds a texel's centre on a face at which nothing is nearer than
+// all of it.
+bool may_show(vec3 low, vec3 high, uint face) {
+    vec3 a = face_from_world[face] * low;
+    vec3 b = face_from_world[face] * high;
+    vec3 lo = min(a, b);
+    vec3 hi = max(a, b);
+    if (hi.z <= 0.0) return false;
+    precise float near_inverse = lo.z > kLeastAxial ? 1.0 / lo.z : 1.0 / kLeastAxial;
+    float far_inverse = 1.0 / hi.z;
+    // Clamped: the products of a box about the eye's own plane overflow an integer.
+    vec2 first = clamp(lo.xy * mix(vec2(far_inverse), vec2(near_inverse), lessThan(lo.xy, vec2(0.0))), -2.0, 2.0);
+    vec2 last = clamp(hi.xy * mix(vec2(far_inverse), vec2(near_inverse), greaterThan(hi.xy, vec2(0.0))), -2.0, 2.0);
+    ivec4 rect = texels_between(first, last);
+    uint bound = floatBitsToUint(near_inverse * 1.00001);
+    for (int row = rect.y; row <= rect.w; ++row) {
+        for (int column = rect.x; column <= rect.z; ++column)
+            if (depth[texel_index(int(face), row, column)] <= bound) return true;
     }
     return false;
 }
 
-bool block_may_show(uint group, uint block) {
-    vec3 low = vec3(block_boxes[group].low[0][block], block_boxes[group].low[1][block], block_boxes[group].low[2][block]);
-    vec3 high =
-        vec3(block_boxes[group].high[0][block], block_boxes[group].high[1][block], block_boxes[group].high[2][block]);
-    return may_show(low - eye, high - eye);
-}
-
-bool group_may_show(uint group, float from, float to) {
+bool group_may_show(uint group, uint face) {
     uint b = group / kBlock;
     uint i = group % kBlock;
-    vec3 low = vec3(group_boxes[b].low[0][i], group_boxes[b].low[1][i], group_boxes[b].low[2][i]) - eye;
-    vec3 high = vec3(group_boxes[b].high[0][i], group_boxes[b].high[1][i], group_boxes[b].high[2][i]) - eye;
-    float away = length(max(max(low, -high), vec3(0.0)));
-    return away >= from && away < to && may_show(low, high);
+    return may_show(vec3(group_boxes[b].low[0][i], group_boxes[b].low[1][i], group_boxes[b].low[2][i]) - eye,
+                    vec3(group_boxes[b].high[0][i], group_boxes[b].high[1][i], group_boxes[b].high[2][i]) - eye, face);
+}
+
+bool block_may_show(uint group, uint i, uint face) {
+    return may_show(
+        vec3(block_boxes[group].low[0][i], block_boxes[group].low[1][i], block_boxes[group].low[2][i]) - eye,
+        vec3(block_boxes[group].high[0][i], block_boxes[group].high[1][i], block_boxes[group].high[2][i]) - eye, face);
 }
 
 // Exactly opposite for exchanged corners, so that nothing shows between two triangles.
@@ -125,14 +136,75 @@ vec3 edge(vec3 p, vec3 q) {
 
 vec3 corner(uint block, uint lane, uint first) {
     return vec3(triangles[block].corner[first][lane], triangles[block].corner[first + 1u][lane],
-                triangles[block].corner[first + 2u][lane]);
+                triangles[block].corner[first + 2u][lane]) - eye;
 }
 
-// Into the map, or, when `naming`, its name to the texels that have its depth.
-void draw(uint block, uint lane, bool naming) {
-    vec3 p0 = corner(block, lane, 0u) - eye;
-    vec3 p1 = corner(block, lane, 3u) - eye;
-    vec3 p2 = corner(block, lane, 6u) - eye;
+// A triangle on a face: its edges and 1 / depth_axial, each affine there, and the texels to look at.
+struct Patch {
+    vec3 side0;
+    vec3 side1;
+    vec3 side2;
+    vec3 gradient;
+    float most;  // nothing of it is nearer
+    uint id;
+    uint place;
+};
+
+uint packed_place(int face, ivec4 rect) {
+    return uint(face | rect.x << 4 | rect.y << 8 | rect.z << 12 | rect.w << 16);
+}
+int face_of(uint place) { return int(place & 15u); }
+ivec4 rect_of(uint place) {
+    return ivec4(place >> 4 & 15u, place >> 8 & 15u, place >> 12 & 15u, place >> 16 & 15u);
+}
+
+// At one texel: into the map, or, when `naming`, its name where the map has its depth.
+void cover(Patch p, int row, int column, bool naming) {
+    float u = center(column);
+    float v = center(row);
+    precise float s0 = p.side0.x * u + p.side0.y * v + p.side0.z;
+    precise float s1 = p.side1.x * u + p.side1.y * v + p.side1.z;
+    precise float s2 = p.side2.x * u + p.side2.y * v + p.side2.z;
+    precise float inverse = min(p.gradient.x * u + p.gradient.y * v + p.gradient.z, p.most);
+    if (!(min(min(s0, s1), s2) >= 0.0 && inverse > 0.0)) return;
+    uint bits = floatBitsToUint(inverse);
+    uint at = texel_index(face_of(p.place), row, column);
+    if (naming) {
+        if (depth[at] == bits) atomicMin(seen[at], p.id);
+    } else if (bits > depth[at]) {
+        atomicMax(depth[at], bits);
+    }
+}
+
+void keep(Patch p, uint slot) {
+    uint at = slot * kWords;
+    for (int k = 0; k < 3; ++k) {
+        scratch[at + k] = p.side0[k];
+        scratch[at + 3 + k] = p.side1[k];
+        scratch[at + 6 + k] = p.side2[k];
+        scratch[at + 9 + k] = p.gradient[k];
+    }
+    scratch[at + 12] = p.most;
+    scratch[at + 13] = uintBitsToFloat(p.id);
+    scratch[at + 14] = uintBitsToFloat(p.place);
+}
+
+Patch kept(uint slot) {
+    uint at = slot * kWords;
+    return Patch(vec3(scratch[at], scratch[at + 1], scratch[at + 2]),
+                 vec3(scratch[at + 3], scratch[at + 4], scratch[at + 5]),
+                 vec3(scratch[at + 6], scratch[at + 7], scratch[at + 8]),
+                 vec3(scratch[at + 9], scratch[at + 10], scratch[at + 11]), scratch[at + 12],
+                 floatBitsToUint(scratch[at + 13]), floatBitsToUint(scratch[at + 14]));
+}
+
+// A small piece at once; a large one is kept for a team of threads.
+void draw(uvec2 piece, bool naming) {
+    uint block = piece.x / kBlock;
+    uint lane = piece.x % kBlock;
+    vec3 p0 = corner(block, lane, 0u);
+    vec3 p1 = corner(block, lane, 3u);
+    vec3 p2 = corner(block, lane, 6u);
     vec3 n = vec3(triangles[block].normal[0][lane], triangles[block].normal[1][lane], triangles[block].normal[2][lane]);
     precise float height = n.x * p0.x + n.y * p0.y + n.z * p0.z;
     if (!(abs(height) > near_plane)) return;
@@ -141,69 +213,142 @@ void draw(uint block, uint lane, bool naming) {
     precise vec3 e1 = turn * edge(p2, p0);
     precise vec3 e2 = turn * edge(p0, p1);
     precise vec3 gradient = n / height;  // of 1 / depth_axial
-    for (int face = 0; face < 6; ++face) {
-        mat3 m = face_from_world[face];
-        vec3 a = m * p0;
-        vec3 b = m * p1;
-        vec3 c = m * p2;
-        float near = min(min(a.z, b.z), c.z);
-        if (max(max(a.z, b.z), c.z) <= 0.0) continue;
-        vec2 low = vec2(-1.0);
-        vec2 high = vec2(1.0);
-        precise float most = 1.0 / kLeastAxial;  // nothing of it is nearer
-        if (near > kLeastAxial) {
-            most = 1.0 / near;
-            low = min(min(a.xy / a.z, b.xy / b.z), c.xy / c.z);
-            high = max(max(a.xy / a.z, b.xy / b.z), c.xy / c.z);
-            if (any(greaterThan(low, vec2(1.0))) || any(lessThan(high, vec2(-1.0)))) continue;
-            low = max(low, vec2(-2.0));
-            high = min(high, vec2(2.0));
-        } else {
-            // Beyond one of the four planes of the face's pyramid with all three corners.
-            vec2 over = min(min(a.xy - a.z, b.xy - b.z), c.xy - c.z);
-            vec2 under = min(min(-a.xy - a.z, -b.xy - b.z), -c.xy - c.z);
-            if (any(greaterThan(over, vec2(0.0))) || any(greaterThan(under, vec2(0.0)))) continue;
+    mat3 m = face_from_world[face_of(piece.y)];
+    vec3 depths = vec3((m * p0).z, (m * p1).z, (m * p2).z);
+    float near = min(min(depths.x, depths.y), depths.z);
+    precise vec3 q0 = m * e0;
+    precise vec3 q1 = m * e1;
+    precise vec3 q2 = m * e2;
+    precise vec3 g = m * gradient;
+    precise float most = near > kLeastAxial ? 1.0 / near : 1.0 / kLeastAxial;
+    Patch p = Patch(q0, q1, q2, g, most, triangles[block].id[lane], piece.y);
+    ivec4 rect = rect_of(piece.y);
+    if ((rect.z - rect.x + 1) * (rect.w - rect.y + 1) > kSmall) {
+        uint slot = atomicAdd(patch_count, 1u);
+        if (slot < kPatches) {
+            keep(p, slot);
+            return;
         }
-        ivec4 rect = texels_between(low, high);
-        precise vec3 q0 = m * e0;
-        precise vec3 q1 = m * e1;
-        precise vec3 q2 = m * e2;
-        precise vec3 g = m * gradient;
-        for (int row = rect.y; row <= rect.w; ++row) {
-            float v = center(row);
-            for (int column = rect.x; column <= rect.z; ++column) {
-                float u = center(column);
-                precise float s0 = q0.x * u + q0.y * v + q0.z;
-                precise float s1 = q1.x * u + q1.y * v + q1.z;
-                precise float s2 = q2.x * u + q2.y * v + q2.z;
-                precise float inverse = min(g.x * u + g.y * v + g.z, most);
-                if (!(min(min(s0, s1), s2) >= 0.0 && inverse > 0.0)) continue;
-                uint bits = floatBitsToUint(inverse);
-                uint at = texel_index(face, row, column);
-                if (naming) {
-                    if (depth[at] == bits) atomicMin(seen[at], triangles[block].id[lane]);
-                } else if (bits > depth[at]) {
-                    atomicMax(depth[at], bits);
-                }
-            }
-        }
+    }
+    for (int row = rect.y; row <= rect.w; ++row) {
+        for (int column = rect.x; column <= rect.z; ++column) cover(p, row, column, naming);
     }
 }
 
-// Draws the groups whose boxes are at least `from` and less than `to` away. Sixteen threads take a block.
-void sweep(float from, float to, bool naming) {
-    for (uint first = 0u; first < groups; first += kThreads) {
-        if (thread == 0u) listed_count = 0u;
+void draw_kept(bool naming) {
+    uint count = min(patch_count, kPatches);
+    for (uint slot = thread / kTeam; slot < count; slot += kThreads / kTeam) {
+        Patch p = kept(slot);
+        ivec4 rect = rect_of(p.place);
+        int columns = rect.z - rect.x + 1;
+        int texels = columns * (rect.w - rect.y + 1);
+        for (int i = int(thread % kTeam); i < texels; i += int(kTeam))
+            cover(p, rect.y + i / columns, rect.x + i % columns, naming);
+    }
+}
+
+void draw_pieces(bool naming) {
+    uint count = piece_count;
+    for (uint first = 0u; first < count; first += kThreads)
+        if (first + thread < count) draw(pieces[first + thread], naming);
+    barrier();
+    draw_kept(naming);
+    barrier();
+    if (thread == 0u) piece_count = patch_count = 0u;
+    barrier();
+}
+
+// The texels whose centres a triangle may hold on a face; none: first after last.
+ivec4 texels_of(int face, vec3 p0, vec3 p1, vec3 p2) {
+    const ivec4 none = ivec4(1, 1, 0, 0);
+    mat3 m = face_from_world[face];
+    vec3 a = m * p0;
+    vec3 b = m * p1;
+    vec3 c = m * p2;
+    if (max(max(a.z, b.z), c.z) <= 0.0) return none;
+    if (min(min(a.z, b.z), c.z) > kLeastAxial) {
+        vec2 low = min(min(a.xy / a.z, b.xy / b.z), c.xy / c.z);
+        vec2 high = max(max(a.xy / a.z, b.xy / b.z), c.xy / c.z);
+        return texels_between(clamp(low, -2.0, 2.0), clamp(high, -2.0, 2.0));
+    }
+    // Beyond one of the four planes of the face's pyramid with all three corners.
+    vec2 over = min(min(a.xy - a.z, b.xy - b.z), c.xy - c.z);
+    vec2 under = min(min(-a.xy - a.z, -b.xy - b.z), -c.xy - c.z);
+    if (any(greaterThan(over, vec2(0.0))) || any(greaterThan(under, vec2(0.0)))) return none;
+    return texels_between(vec2(-1.0), vec2(1.0));
+}
+
+void list_piece(uint listed, uint lane) {
+    uint block = listed / 8u;
+    int face = int(listed % 8u);
+    ivec4 rect = texels_of(face, corner(block, lane, 0u), corner(block, lane, 3u), corner(block, lane, 6u));
+    if (rect.z < rect.x || rect.w < rect.y) return;
+    pieces[atomicAdd(piece_count, 1u)] = uvec2(block * kBlock + lane, packed_place(face, rect));
+}
+
+void draw_blocks(bool naming) {
+    uint count = block_count * kBlock;
+    for (uint first = 0u; first < count; first += kThreads) {
+        uint i = first + thread;
+        if (i < count) list_piece(blocks[i / kBlock], i % kBlock);
         barrier();
-        uint group = first + thread;
-        if (group < groups && group_may_show(group, from, to)) listed[atomicAdd(listed_count, 1u)] = group;
+        uint gathered = piece_count;
         barrier();
-        uint count = listed_count * kBlock;
-        for (uint i = thread / kBlock; i < count; i += kThreads / kBlock) {
-            uint shown = listed[i / kBlock];
-            uint block = first_block[shown] + i % kBlock;
-            if (block < first_block[shown + 1u] && block_may_show(shown, i % kBlock))
-                draw(block, thread % kBlock, naming);
+        if (gathered >= kThreads) draw_pieces(naming);
+    }
+    if (thread == 0u) block_count = 0u;
+    barrier();
+}
+
+void draw_groups(bool naming) {
+    uint count = group_count * kBlock;
+    for (uint first = 0u; first < count; first += kThreads) {
+        uint i = first + thread;
+        if (i < count) {
+            uint group = groups_listed[i / kBlock] / 8u;
+            uint face = groups_listed[i / kBlock] % 8u;
+            uint block = first_block[group] + i % kBlock;
+            if (block < first_block[group + 1u] && block_may_show(group, i % kBlock, face))
+                blocks[atomicAdd(block_count, 1u)] = block * 8u + face;
+        }
+        barrier();
+        uint gathered = block_count;
+        barrier();
+        if (gathered >= kThreads) draw_blocks(naming);
+    }
+}
+
+// Everything into the map, or its names.
+void sweep(bool naming) {
+    for (uint first = 0u; first < groups * kFaces; first += kThreads) {
+        if (thread == 0u) group_count = 0u;
+        barrier();
+        uint group = (first + thread) / kFaces;
+        uint face = (first + thread) % kFaces;
+        if (group < groups && group_may_show(group, face))
+            groups_listed[atomicAdd(group_count, 1u)] = group * 8u + face;
+        barrier();
+        draw_groups(naming);
+    }
+    draw_blocks(naming);
+    draw_pieces(naming);
+}
+
+// The threads' sums, in a fixed order, to the front of each row of `scratch`; the last is a maximum.
+void add_up(float sum[kSums]) {
+    for (uint part = 0u; part < kThreads / kLanes; ++part) {
+        for (int k = 0; k < kSums && thread / kLanes == part; ++k) {
+            uint at = uint(k) * kLanes + thread % kLanes;
+            float before = part == 0u ? 0.0 : scratch[at];
+            scratch[at] = k < kSums - 1 ? before + sum[k] : max(before, sum[k]);
+        }
+        barrier();
+    }
+    for (uint step = kLanes / 2u; step > 0u; step /= 2u) {
+        for (int k = 0; k < kSums && thread < step; ++k) {
+            uint at = uint(k) * kLanes + thread;
+            float other = scratch[at + step];
+            scratch[at] = k < kSums - 1 ? scratch[at] + other : max(scratch[at], other);
         }
         barrier();
     }
@@ -211,7 +356,7 @@ void sweep(float from, float to, bool naming) {
 
 // What this thread's texels add to the record: force, Jacobian, hits, hits from behind; and 1 / nearest.
 void sum_texels() {
-    float sum[12] = float[](0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0);
+    float sum[kSums] = float[](0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0);
     int per_face = face_px * face_px;
     for (int i = int(thread); i < 6 * per_face; i += int(kThreads)) {
         if (depth[i] == 0u) continue;
@@ -240,7 +385,7 @@ void sum_texels() {
         sum[10] += facing > 0.0 ? weight : 0.0;
         sum[11] = max(sum[11], inverse);
     }
-    for (int k = 0; k < 12; ++k) sums[k][thread] = sum[k];
+    add_up(sum);
 }
 
 // 1 / (least distance ahead) of this thread's texels.
@@ -254,23 +399,16 @@ float look_ahead(vec3 ahead) {
     return greatest;
 }
 
+float total(int k) { return scratch[uint(k) * kLanes]; }
+
 void main() {
-    for (uint i = thread; i < 6u * uint(face_px * face_px); i += kThreads) {
+    for (uint i = thread; i < kTexels; i += kThreads) {
         depth[i] = 0u;
         seen[i] = kNone;
     }
-    if (thread == 0u) is_cut_short = 0u;
+    if (thread == 0u) block_count = piece_count = patch_count = ahead_bits = is_cut_short = 0u;
     barrier();
-
-    float from = 0.0;
-    float to = kFirstShell;
-    for (int shell = 0; shell < kShells; ++shell) {
-        // Shells overlap, lest rounding leave a group between two.
-        sweep(0.9999 * from, shell + 1 < kShells ? to : kInfinity, false);
-        from = to;
-        to *= kShellRatio;
-    }
-    sweep(0.0, kInfinity, true);
+    for (int pass = 0; pass < 2; ++pass) sweep(pass == 1);
 
     // Software drivers end a thread's loops, silently, after some 65,000 iterations: this one too, then.
     uint rest = 0u;
@@ -278,30 +416,17 @@ void main() {
     if (rest != patience) is_cut_short = 1u;
 
     sum_texels();
-    barrier();
-    for (uint step = kThreads / 2u; step > 0u; step /= 2u) {
-        if (thread < step) {
-            for (int k = 0; k < 11; ++k) sums[k][thread] += sums[k][thread + step];
-            sums[11][thread] = max(sums[11][thread], sums[11][thread + step]);
-        }
-        barrier();
-    }
     Record record;
-    for (int k = 0; k < 3; ++k) record.force[k] = sums[k][0];
-    for (int k = 0; k < 6; ++k) record.jacobian[k] = sums[3 + k][0];
-    record.hit_fraction = is_cut_short != 0u ? -1.0 : sums[9][0];
-    record.back_fraction = sums[9][0] > 0.0 ? sums[10][0] / sums[9][0] : 0.0;
-    record.nearest = sums[11][0] > 0.0 ? 1.0 / sums[11][0] : kInfinity;
-    barrier();
+    for (int k = 0; k < 3; ++k) record.force[k] = total(k);
+    for (int k = 0; k < 6; ++k) record.jacobian[k] = total(3 + k);
+    record.hit_fraction = is_cut_short != 0u ? -1.0 : total(9);
+    record.back_fraction = total(9) > 0.0 ? total(10) / total(9) : 0.0;
+    record.nearest = total(11) > 0.0 ? 1.0 / total(11) : kInfinity;
 
     vec3 force = vec3(record.force[0], record.force[1], record.force[2]);
     float strength = length(force);
-    sums[0][thread] = strength > 0.0 ? look_ahead(force / strength) : 0.0;
+    if (strength > 0.0) atomicMax(ahead_bits, floatBitsToUint(look_ahead(force / strength)));
     barrier();
-    for (uint step = kThreads / 2u; step > 0u; step /= 2u) {
-        if (thread < step) sums[0][thread] = max(sums[0][thread], sums[0][thread + step]);
-        barrier();
-    }
-    record.clearance = sums[0][0] > 0.0 ? 1.0 / sums[0][0] : kInfinity;
+    record.clearance = ahead_bits > 0u ? 1.0 / uintBitsToFloat(ahead_bits) : kInfinity;
     if (thread == 0u) records[gl_WorkGroupID.x] = record;
 }

@@ -61,6 +61,10 @@ struct ComparisonBounds {
 };
 bool is_within(const SourceComparison& comparison, const ComparisonBounds& bounds);
 
+/// Of a backend: hardware draws corners where they lie to 1/256 of a texel, so that a texel as near
+/// to an edge may show the plane beside it.
+ComparisonBounds bounds_of(const BackendInfo& backend);
+
 /// Eyes on which sources are compared: of seeds spread evenly over the vertices, one third at their
 /// starts, one third half-way, one third at their ends, settled by the paper's method with
 /// `source`.

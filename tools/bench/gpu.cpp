@@ -61,15 +61,16 @@ void print_difference(const Subject& subject, Backend& gpu, Backend& cpu) {
     std::sort(force.begin(), force.end());
     std::sort(jacobian.begin(), jacobian.end());
     const std::size_t p95 = force.size() * 95 / 100;
-    fmt::print("  records against the CPU's: force {:.1e} at 95 %, {:.1e} at worst; Jacobian "
-               "{:.1e}, {:.1e}\n",
-               force[p95], force.back(), jacobian[p95], jacobian.back());
+    fmt::print(
+        "  records against the CPU's: force {:.1e} at 95 %, {:.1e} at worst; Jacobian "
+        "{:.1e}, {:.1e}\n",
+        force[p95], force.back(), jacobian[p95], jacobian.back());
 }
 
 void print_throughput(const Subject& subject, Backend& gpu, Backend& cpu) {
     const auto on_gpu = gpu.prepare(subject.surface);
     const auto on_cpu = cpu.prepare(subject.surface);
-    for (const std::size_t count : {1000, 8192, 65535}) {
+    for (const std::size_t count : {1, 1000, 8192, 65535}) {
         std::vector<Vec3> eyes;
         for (std::size_t i = 0; i < count; ++i)
             eyes.push_back(subject.eyes[i % subject.eyes.size()]);
@@ -79,9 +80,10 @@ void print_throughput(const Subject& subject, Backend& gpu, Backend& cpu) {
         const double cpu_s = count > 8192 ? 0.0 : seconds_of([&] { on_cpu->look(eyes, records); });
         fmt::print("  {:>6} eyes at once: {:8.3f} ms, {:6.3f} million a second{}\n", count,
                    gpu_s * 1e3, static_cast<double>(count) * 1e-6 / gpu_s,
-                   cpu_s > 0.0 ? fmt::format("; the CPU's {} threads {:.3f} million", thread_count(),
-                                             static_cast<double>(count) * 1e-6 / cpu_s)
-                               : "");
+                   cpu_s > 0.0
+                       ? fmt::format("; the CPU's {} threads {:.3f} million", thread_count(),
+                                     static_cast<double>(count) * 1e-6 / cpu_s)
+                       : "");
     }
 }
 

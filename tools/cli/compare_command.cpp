@@ -157,9 +157,10 @@ ExitCode compare(const Arguments& arguments, const Common& common) {
     bool is_fine = false;
     if (arguments.method.empty()) {
         const SourceComparison c = compare_backends(mesh, *tested, *reference, arguments.eyes, {});
-        is_fine = is_within(c, ComparisonBounds{});
-        out.update(to_json(c, ComparisonBounds{}));
-        text += to_text(c, ComparisonBounds{});
+        const ComparisonBounds bounds = bounds_of(tested->info());
+        is_fine = is_within(c, bounds);
+        out.update(to_json(c, bounds));
+        text += to_text(c, bounds);
     } else {
         const SkeletonComparison c = compare_extracts(mesh, options, *tested, *reference);
         is_fine = is_within(c, SkeletonBounds{});

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <string>
 #include <vector>
 
@@ -24,9 +25,16 @@ std::string driver_log(GLuint object, GetLength get_length, GetLog get_log) {
 
 GLuint compile(const Api& gl, const ShaderStage& stage) {
     const GLuint shader = gl.CreateShader(stage.kind);
-    const GLchar* text = stage.source.data();
-    const auto length = static_cast<GLint>(stage.source.size());
-    gl.ShaderSource(shader, 1, &text, &length);
+    const std::size_t first_line = stage.source.find('\n') + 1;
+    const std::array<std::string_view, 3> parts{stage.source.substr(0, first_line),
+                                                stage.definitions, stage.source.substr(first_line)};
+    std::array<const GLchar*, 3> texts{};
+    std::array<GLint, 3> lengths{};
+    for (std::size_t i = 0; i < parts.size(); ++i) {
+        texts[i] = parts[i].data();
+        lengths[i] = static_cast<GLint>(parts[i].size());
+    }
+    gl.ShaderSource(shader, static_cast<GLsizei>(parts.size()), texts.data(), lengths.data());
     gl.CompileShader(shader);
     GLint compiled = GL_FALSE;
     gl.GetShaderiv(shader, GL_COMPILE_STATUS, &compiled);

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <initializer_list>
+#include <string>
 #include <string_view>
 
 #include "zskel/gl/api.h"
@@ -11,6 +12,7 @@ struct ShaderStage {
     GLenum kind;
     std::string_view name;  ///< the file's, for messages
     std::string_view source;
+    std::string definitions = {};  ///< lines put in after the first, which says the version
 };
 
 /// Compiles and links. @throws GlError with the stage, the file and the driver's log.

@@ -109,6 +109,9 @@ SolidSkeleton extract_by_newton(
         if (begin == 0) spread = spread_seeds(surface, thickness, options.spread);
         if (end == 2) {
             source = make_source();
+            // What the first look has to make ready, of a GPU's too.
+            EyeRecord first;
+            source->look(std::span(starts).first(1), {&first, 1});
             inner = walkable_points(surface, query, starts);
         }
     });

@@ -1,8 +1,10 @@
 #pragma once
 
+#include <cstdint>
 #include <span>
 #include <vector>
 
+#include "zskel/core/parallel.h"
 #include "zskel/skeleton/settle.h"
 
 namespace zskel {
@@ -27,16 +29,23 @@ std::vector<SettledSeed> walk_to_rest(VisibilitySource& source, std::span<const 
     const auto all = static_cast<double>(seeds.size());
     std::vector<Vec3> eyes;
     std::vector<EyeRecord> records;
+    std::vector<std::uint8_t> goes_on;
     while (!walkers.empty()) {
         eyes.clear();
         for (const Walker& walker : walkers) eyes.push_back(walker.tried);
         records.resize(eyes.size());
         source.look(eyes, records);
+        goes_on.resize(eyes.size());
+        parallel_for(walkers.size(), 64, [&](std::size_t begin, std::size_t end) {
+            for (std::size_t i = begin; i < end; ++i) {
+                SettledSeed& seed = settled[walkers[i].index];
+                ++seed.evaluations;
+                goes_on[i] = walk.advance(walkers[i], seed, records[i]) ? 1 : 0;
+            }
+        });
         std::size_t kept = 0;
         for (std::size_t i = 0; i < walkers.size(); ++i) {
-            SettledSeed& seed = settled[walkers[i].index];
-            ++seed.evaluations;
-            if (walk.advance(walkers[i], seed, records[i])) walkers[kept++] = walkers[i];
+            if (goes_on[i] != 0) walkers[kept++] = walkers[i];
         }
         walkers.resize(kept);
         if (progress) progress(1.0 - static_cast<double>(kept) / all);

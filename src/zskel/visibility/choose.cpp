@@ -15,8 +15,8 @@ namespace {
 constexpr double kFaces = 2000.0;       // at which the costs are told
 constexpr double kCpuSeconds = 22e-6;   // a map of 16 texels a face, one thread
 constexpr double kCpuFixedShare = 0.4;  // of it, that does not grow with the texels
-constexpr double kGpuSeconds = 1e-6;
-constexpr double kGpuContextSeconds = 0.3;
+constexpr double kGpuSeconds = 0.5e-6;  // likewise, on an H200
+constexpr double kGpuContextSeconds = 0.15;
 
 // Both sources leave out what is hidden: costs grow with the square root of the faces (measured,
 // 2k to 128k).

