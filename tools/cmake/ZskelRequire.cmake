@@ -8,15 +8,6 @@ macro(zskel_require name apt)
     endif()
 endmacro()
 
-# A library that CMake has no module for, in ZSKEL_LIBRARY_NAME.
-function(zskel_require_library name apt)
-    find_library(ZSKEL_LIBRARY_${name} ${name})
-    mark_as_advanced(ZSKEL_LIBRARY_${name})
-    if(NOT ZSKEL_LIBRARY_${name})
-        message(FATAL_ERROR "zskel needs lib${name}. On Debian: apt-get install ${apt} (or run tools/setup)")
-    endif()
-endfunction()
-
 function(zskel_require_header header apt)
     string(MAKE_C_IDENTIFIER "ZSKEL_HEADER_${header}" variable)
     find_path(${variable} ${header})

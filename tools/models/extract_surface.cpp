@@ -1,4 +1,4 @@
-// Marching tetrahedra (Doi and Koide 1991) on cells cut in six around their diagonal (Kuhn 1960).
+// Marching tetrahedra.
 // An octree skips what lies further from the surface than its size, so only cells near it are
 // sampled.
 #include "extract_surface.h"
@@ -10,6 +10,8 @@
 #include <unordered_map>
 #include <utility>
 
+#include "zskel/mesh/tetrahedra.h"
+
 namespace zskel::models {
 namespace {
 
@@ -18,16 +20,6 @@ constexpr double kHalfSide = 0.52;
 constexpr double kSkipFactor = 1.5;
 
 using Corner = glm::ivec3;
-
-/// The six tetrahedra of a unit cell, all turning the same way.
-constexpr std::array<std::array<glm::ivec3, 4>, 6> kTetrahedra = {{
-    {{{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {1, 1, 1}}},
-    {{{0, 0, 0}, {0, 1, 0}, {0, 1, 1}, {1, 1, 1}}},
-    {{{0, 0, 0}, {0, 0, 1}, {1, 0, 1}, {1, 1, 1}}},
-    {{{0, 0, 0}, {1, 1, 0}, {0, 1, 0}, {1, 1, 1}}},
-    {{{0, 0, 0}, {0, 1, 1}, {0, 0, 1}, {1, 1, 1}}},
-    {{{0, 0, 0}, {1, 0, 1}, {1, 0, 0}, {1, 1, 1}}},
-}};
 
 class Extraction {
   public:
@@ -47,7 +39,7 @@ class Extraction {
             return;
         }
         if (size == 1) {
-            for (const auto& tetrahedron : kTetrahedra) {
+            for (const auto& tetrahedron : kCellTetrahedra) {
                 cut({low + tetrahedron[0], low + tetrahedron[1], low + tetrahedron[2],
                      low + tetrahedron[3]});
             }
@@ -59,34 +51,25 @@ class Extraction {
         }
     }
 
-    /// Every choice below is an even permutation, so the triangles keep the tetrahedron's turn.
     void cut(const std::array<Corner, 4>& t) {
-        static constexpr int kEven[4][4] = {{0, 1, 2, 3}, {1, 0, 3, 2}, {2, 3, 0, 1}, {3, 2, 1, 0}};
-        static constexpr int kPairs[6][4] = {{0, 1, 2, 3}, {0, 2, 3, 1}, {0, 3, 1, 2},
-                                             {1, 2, 0, 3}, {1, 3, 2, 0}, {2, 3, 0, 1}};
         int inside = 0;
-        for (int i = 0; i < 4; ++i) {
-            inside |= (value(t[static_cast<std::size_t>(i)]) < 0.0 ? 1 : 0) << i;
-        }
-        const auto at = [&](int i) { return t[static_cast<std::size_t>(i)]; };
-        for (const auto& e : kEven) {
-            const std::array<Corner, 4> v = {at(e[0]), at(e[1]), at(e[2]), at(e[3])};
-            if (inside == 1 << e[0]) {
-                emit(crossing(v[0], v[1]), crossing(v[0], v[2]), crossing(v[0], v[3]));
-            } else if (inside == (15 ^ (1 << e[0]))) {
-                emit(crossing(v[0], v[1]), crossing(v[0], v[3]), crossing(v[0], v[2]));
+        for (std::size_t i = 0; i < 4; ++i) inside |= (value(t[i]) < 0.0 ? 1 : 0) << i;
+        cut_tetrahedron(inside, [&](std::span<const TetrahedronEdge> polygon) {
+            const auto at = [&](std::size_t edge) {
+                return crossing(t[static_cast<std::size_t>(polygon[edge].first)],
+                                t[static_cast<std::size_t>(polygon[edge].second)]);
+            };
+            if (polygon.size() == 3) {
+                emit(at(0), at(1), at(2));
+                return;
             }
-        }
-        for (const auto& p : kPairs) {
-            if (inside == (1 << p[0] | 1 << p[1])) {
-                const std::uint32_t a = crossing(at(p[0]), at(p[2]));
-                const std::uint32_t b = crossing(at(p[0]), at(p[3]));
-                const std::uint32_t c = crossing(at(p[1]), at(p[3]));
-                const std::uint32_t d = crossing(at(p[1]), at(p[2]));
-                emit(a, b, c);
-                emit(a, c, d);
-            }
-        }
+            const std::uint32_t a = at(0);
+            const std::uint32_t b = at(1);
+            const std::uint32_t c = at(2);
+            const std::uint32_t d = at(3);
+            emit(a, b, c);
+            emit(a, c, d);
+        });
     }
 
     void emit(std::uint32_t a, std::uint32_t b, std::uint32_t c) {

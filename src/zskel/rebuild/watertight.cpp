@@ -1,9 +1,6 @@
 #include "zskel/rebuild/watertight.h"
 
 #include <fmt/format.h>
-#include <openvdb/openvdb.h>
-#include <openvdb/tools/SignedFloodFill.h>
-#include <openvdb/tools/VolumeToMesh.h>
 
 #include <algorithm>
 #include <array>
@@ -17,12 +14,13 @@
 #include "zskel/core/lattice_hash.h"
 #include "zskel/core/parallel.h"
 #include "zskel/mesh/bounds.h"
+#include "zskel/mesh/level_set.h"
 #include "zskel/mesh/winding.h"
 
 namespace zskel {
 namespace {
 
-constexpr int kBlock = 8;  // voxels along a block: OpenVDB's leaves
+constexpr int kBlock = kLevelSetBlock;
 constexpr std::size_t kBlockVoxels = kBlock * kBlock * kBlock;
 constexpr double kMostVoxelsAsked = 4096.0;
 constexpr double kLeastVoid = 8.0;  // voxels that a void must have
@@ -34,21 +32,20 @@ struct Lattice {
     DVec3 place(const DVec3& voxel) const { return low + voxel * side; }
 };
 
-struct Block {
-    glm::ivec3 at{0};           // in blocks
-    bool has_surface = false;   // or may have: not farther outside or inside than its samples
-    std::vector<float> values;  // voxels to the surface, inside below 0, as OpenVDB has it; one for
-                                // all, or one a voxel
+// Values are voxels to the surface.
+struct Sampled {
+    LevelSetBlock block;
+    bool has_surface = false;  // or may have: not farther outside or inside than its samples
 };
 
 constexpr auto kFar = static_cast<float>(kBlock);
 
-Block sample_block(const Recall& recall, const Lattice& lattice, const glm::ivec3& at) {
+Sampled sample_block(const Recall& recall, const Lattice& lattice, const glm::ivec3& at) {
     const DVec3 first(at * kBlock);
     const double half = 0.5 * kBlock;
     const DVec3 middle = lattice.place(first + half);
     const std::vector<std::uint32_t> among = recall.maps_about(middle, half * lattice.side);
-    if (among.empty()) return {at, false, {kFar}};
+    if (among.empty()) return {{at, {kFar}}, false};
     // Farther inside than its samples lie apart: nothing of the surface in between.
     const double apart = half * lattice.side;
     double least = kInfinity;
@@ -56,25 +53,25 @@ Block sample_block(const Recall& recall, const Lattice& lattice, const glm::ivec
         const DVec3 step(corner % 3 - 1, corner / 3 % 3 - 1, corner / 9 - 1);
         least = std::min(least, recall.inside(middle + apart * step, among));
     }
-    if (least > apart) return {at, false, {-kFar}};
-    Block block{at, false, {}};
-    block.values.reserve(kBlockVoxels);
-    for (int x = 0; x < kBlock; ++x) {  // OpenVDB's order in a leaf: z fastest
+    if (least > apart) return {{at, {-kFar}}, false};
+    Sampled out{{at, {}}, false};
+    out.block.values.reserve(kBlockVoxels);
+    for (int x = 0; x < kBlock; ++x) {
         for (int y = 0; y < kBlock; ++y) {
             for (int z = 0; z < kBlock; ++z) {
                 const double inside = recall.inside(lattice.place(first + DVec3(x, y, z)), among);
-                block.has_surface = block.has_surface || inside > 0.0;
-                block.values.push_back(
+                out.has_surface = out.has_surface || inside > 0.0;
+                out.block.values.push_back(
                     std::clamp(static_cast<float>(-inside / lattice.side), -kFar, kFar));
             }
         }
     }
-    return block;
+    return out;
 }
 
 // From the blocks that hold surfels on, wherever a block has surface on to those beside it.
-std::vector<Block> sample_blocks(const Recall& recall, const Lattice& lattice,
-                                 const std::vector<Surfel>& surfels) {
+std::vector<LevelSetBlock> sample_blocks(const Recall& recall, const Lattice& lattice,
+                                         const std::vector<Surfel>& surfels) {
     std::unordered_set<glm::i64vec3, LatticeHash> known;
     std::vector<glm::ivec3> next;
     const auto want = [&](const glm::ivec3& at) {
@@ -82,16 +79,16 @@ std::vector<Block> sample_blocks(const Recall& recall, const Lattice& lattice,
     };
     for (const Surfel& s : surfels)
         want(glm::ivec3(glm::floor((s.position - lattice.low) / (lattice.side * kBlock))));
-    std::vector<Block> blocks;
+    std::vector<LevelSetBlock> blocks;
     while (!next.empty()) {
         const std::vector<glm::ivec3> wanted = std::exchange(next, {});
-        std::vector<Block> sampled(wanted.size());
+        std::vector<Sampled> sampled(wanted.size());
         parallel_for(wanted.size(), 4, [&](std::size_t begin, std::size_t end) {
             for (std::size_t i = begin; i < end; ++i)
                 sampled[i] = sample_block(recall, lattice, wanted[i]);
         });
-        for (Block& block : sampled) {
-            if (block.has_surface) {
+        for (auto& [block, has_surface] : sampled) {
+            if (has_surface) {
                 for (int n = 0; n < 27; ++n)
                     want(block.at + glm::ivec3(n % 3 - 1, n / 3 % 3 - 1, n / 9 - 1));
             }
@@ -101,41 +98,12 @@ std::vector<Block> sample_blocks(const Recall& recall, const Lattice& lattice,
     return blocks;
 }
 
-// Every block becomes a leaf: OpenVDB gives what lies between leaves the sign of their corners, and
-// blocks with surface have others beside them on all sides.
-openvdb::FloatGrid::Ptr grid_of(const std::vector<Block>& blocks) {
-    openvdb::FloatGrid::Ptr grid = openvdb::FloatGrid::create(kFar);
-    grid->setGridClass(openvdb::GRID_LEVEL_SET);
-    for (const Block& block : blocks) {
-        auto* leaf = grid->tree().touchLeaf(
-            openvdb::Coord(block.at.x * kBlock, block.at.y * kBlock, block.at.z * kBlock));
-        for (openvdb::Index v = 0; v < kBlockVoxels; ++v)
-            leaf->setValueOn(v, block.values[block.values.size() == 1 ? 0 : v]);
-    }
-    openvdb::tools::signedFloodFill(grid->tree());
-    return grid;
-}
-
-RebuiltMesh mesh_of(const openvdb::FloatGrid& grid, const Lattice& lattice) {
-    std::vector<openvdb::Vec3s> points;
-    std::vector<openvdb::Vec4I> quads;
-    openvdb::tools::volumeToMesh(grid, points, quads);
+RebuiltMesh mesh_of(const std::vector<LevelSetBlock>& blocks, const Lattice& lattice) {
+    LevelSetMesh mesh = mesh_level_set(blocks);
     RebuiltMesh out;
     out.voxel = lattice.side;
-    for (const openvdb::Vec3s& p : points)
-        out.positions.push_back(lattice.place({p.x(), p.y(), p.z()}));
-    for (const openvdb::Vec4I& q : quads) {
-        // OpenVDB winds them clockwise.
-        const std::array<std::uint32_t, 4> c{q[3], q[2], q[1], q[0]};
-        const auto apart = [&](std::size_t a, std::size_t b) {
-            return glm::distance(out.positions[c[a]], out.positions[c[b]]);
-        };
-        if (apart(0, 2) <= apart(1, 3)) {
-            out.triangles.insert(out.triangles.end(), {{c[0], c[1], c[2]}, {c[0], c[2], c[3]}});
-        } else {
-            out.triangles.insert(out.triangles.end(), {{c[0], c[1], c[3]}, {c[1], c[2], c[3]}});
-        }
-    }
+    for (const DVec3& p : mesh.positions) out.positions.push_back(lattice.place(p));
+    out.triangles = std::move(mesh.triangles);
     return out;
 }
 
@@ -234,9 +202,7 @@ RebuiltMesh rebuild_surface(const VisibilityMaps& maps, const RebuildOptions& op
                         "be at most {} voxels",
                         lattice.side, longest, kMostVoxelsAsked));
     }
-    openvdb::initialize();
-    const auto grid = grid_of(sample_blocks(recall, lattice, all));
-    return without_specks(mesh_of(*grid, lattice), lattice, maps);
+    return without_specks(mesh_of(sample_blocks(recall, lattice, all), lattice), lattice, maps);
 }
 
 }  // namespace zskel

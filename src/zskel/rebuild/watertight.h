@@ -22,7 +22,7 @@ inline constexpr double kFewestVoxels = 200.0;
 inline constexpr double kMostVoxels = 600.0;
 
 /// The surface of what is recalled: watertight whatever the maps hold, since it bounds an inside.
-/// Sampled in cubes from the surfels on, as far as the surface goes; meshed by OpenVDB.
+/// Sampled in cubes from the surfels on, as far as the surface goes.
 /// @throws InputError when no map saw anything, UsageError for a voxel that is too small for the
 /// size of the whole.
 RebuiltMesh rebuild_surface(const VisibilityMaps& maps, const RebuildOptions& options);
