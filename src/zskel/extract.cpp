@@ -10,6 +10,7 @@
 
 #include "zskel/core/log.h"
 #include "zskel/mesh/solid.h"
+#include "zskel/skeleton/openings.h"
 #include "zskel/skeleton/volumes.h"
 #include "zskel/visibility/cube_map.h"
 #include "zskel/visibility/surface_query.h"
@@ -74,6 +75,7 @@ SolidSkeleton extract_solid(const Solid& solid, const SurfaceQuery& query,
         skeleton = extract_by_newton(
             solid.surface, query, solid.is_closed, [&] { return backend.prepare(solid.surface); },
             options.newton, progress);
+        if (!solid.openings.empty()) run_to_openings(solid, query, skeleton);
     }
     stages.begin("check");
     if (solid.is_closed)
@@ -83,15 +85,10 @@ SolidSkeleton extract_solid(const Solid& solid, const SurfaceQuery& query,
 
 class Assembler {
   public:
-    Assembler(const Mesh& mesh, const PreparedSurface& prepared, ExtractResult& result)
+    Assembler(const PreparedSurface& prepared, ExtractResult& result)
         : result_(result),
           surface_node_(prepared.surface.positions.size(), kNone),
-          input_vertex_(prepared.surface.positions.size(), kNone) {
-        for (std::size_t v = mesh.positions.size(); v-- > 0;) {
-            const std::uint32_t place = prepared.surface_vertex[v];
-            if (place != kNone) input_vertex_[place] = static_cast<std::uint32_t>(v);
-        }
-    }
+          input_vertex_(prepared.input_vertex) {}
 
     void add(std::uint32_t number, const Solid& solid, const SurfaceQuery& query,
              SolidSkeleton& part) {
@@ -105,6 +102,8 @@ class Assembler {
                                            to_world.length_to_model(radius), number,
                                            volume * unit * unit * unit});
         }
+        for (const std::uint32_t n : part.open_ends)
+            result_.graph.nodes[first + n].is_open_end = true;
         for (const glm::uvec2& edge : part.edges) {
             result_.graph.edges.push_back({edge.x + first, edge.y + first});
         }
@@ -128,6 +127,8 @@ class Assembler {
             sums.seed_end = part.seed_end;
         }
         sums.cavities += solid.cavity_count;
+        sums.openings += solid.openings.size();
+        sums.open_ends += part.open_ends.size();
         sums.forest_edges += part.forest_edges;
         sums.seeds += part.seeds.size();
         sums.expected_cycles += part.expected_cycles;
@@ -169,8 +170,17 @@ class Assembler {
     ExtractResult& result_;
     SkeletonChecker checker_;
     std::vector<std::uint32_t> surface_node_;
-    std::vector<std::uint32_t> input_vertex_;  // the lowest at each place
+    const std::vector<std::uint32_t>& input_vertex_;  // at each place
 };
+
+// Caps come last.
+Surface without_caps(Surface surface, std::size_t faces) {
+    if (surface.triangles.size() == faces) return surface;
+    surface.triangles.resize(faces);
+    derive_normals(surface);
+    derive_edges(surface);
+    return surface;
+}
 
 // What is known of the parts that are no solids, by method newton, and of what lies in solids.
 void add_part_warnings(const std::vector<Solid>& solids, const ExtractOptions& options,
@@ -256,13 +266,16 @@ ExtractResult extract_skeleton(const Mesh& mesh, const ExtractOptions& options, 
     Stages stages(result.statistics, options);
     stages.begin("prepare");
     PreparedSurface prepared = prepare_surface(
-        mesh, options.method == Method::Paper ? WorldSize::UnitCube : WorldSize::Spread);
+        mesh, options.method == Method::Paper ? WorldSize::UnitCube : WorldSize::Spread,
+        options.repair);
     const std::vector<Solid> solids = split_solids(prepared);
     result.repairs = prepared.repairs;
-    result.statistics.faces = prepared.surface.triangles.size();
+    const auto caps =
+        std::count(prepared.input_triangle.begin(), prepared.input_triangle.end(), kNone);
+    result.statistics.faces = prepared.surface.triangles.size() - static_cast<std::size_t>(caps);
     result.statistics.vertices = prepared.surface.positions.size();
     result.statistics.solids = solids.size();
-    Assembler assembler(mesh, prepared, result);
+    Assembler assembler(prepared, result);
     for (std::uint32_t s = 0; s < solids.size(); ++s) {
         stages.begin("hierarchy");
         const SurfaceQuery query(solids[s].surface);
@@ -270,7 +283,7 @@ ExtractResult extract_skeleton(const Mesh& mesh, const ExtractOptions& options, 
         assembler.add(s, solids[s], query, part);
     }
     assembler.map_vertices(prepared);
-    result.surface = std::move(prepared.surface);
+    result.surface = without_caps(std::move(prepared.surface), result.statistics.faces);
     assembler.finish_check();
     stages.end();
     add_warnings(mesh, solids, options, result);

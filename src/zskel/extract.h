@@ -25,6 +25,7 @@ std::string_view name_of(Method method);
 
 struct ExtractOptions {
     Method method = Method::Newton;
+    RepairOptions repair{.has_caps = true};
     NewtonMethodOptions newton;
     PaperMethodOptions paper;
     /// Told the stage and its share done, on the caller's thread; false stops the work (`Cancelled`
@@ -69,6 +70,8 @@ struct ExtractStatistics {
     std::size_t vertices = 0;  ///< places used
     std::size_t solids = 0;
     std::size_t cavities = 0;
+    std::size_t openings = 0;   ///< closed by caps
+    std::size_t open_ends = 0;  ///< branches that end at one
     std::size_t seeds = 0;
     double seed_spacing_thickness = 0.0;          ///< the widest of the solids'; see SeedSpread
     SpreadEnd seed_end = SpreadEnd::EveryVertex;  ///< of that solid
@@ -112,8 +115,9 @@ BackendOptions backend_options_for(const Mesh& mesh, const ExtractOptions& optio
 /// A GL context that is current on the caller's thread stays so and is not used: a GL backend has
 /// its context on a thread of its own. EGL displays are the process's: a caller must not terminate
 /// one (eglTerminate) that an open backend may use.
-/// @throws InputError for a mesh without area, GlError when the backend fails, Cancelled; whatever
-/// `progress` throws. The backend stays usable after Cancelled, and after what `progress` threw.
+/// @throws InputError for a mesh without area or that may not be repaired, GlError when the backend
+/// fails, Cancelled; whatever `progress` throws. The backend stays usable after Cancelled, and
+/// after what `progress` threw.
 ExtractResult extract_skeleton(const Mesh& mesh, const ExtractOptions& options, Backend& backend);
 
 }  // namespace zskel

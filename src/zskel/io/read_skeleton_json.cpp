@@ -45,6 +45,7 @@ SkeletonFile read_ours(const Place& root, const std::string& name) {
         SkeletonGraph::Node node;
         node.position = entry.at("position").point();
         node.radius = entry.at("radius").number();
+        node.is_open_end = entry.has("open_end");
         read_extras(entry, node);
         entry.check(builder.add_node(node));
     }

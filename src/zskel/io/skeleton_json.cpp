@@ -28,6 +28,7 @@ Json nodes_json(const SkeletonGraph& graph) {
                          {"radius", node.radius},
                          {"volume", node.volume},
                          {"solid", node.solid}});
+        if (node.is_open_end) nodes.back()["open_end"] = true;
     }
     return nodes;
 }
@@ -40,8 +41,8 @@ Json edges_json(const SkeletonGraph& graph) {
     return edges;
 }
 
-std::string_view kind_of(std::uint32_t degree) {
-    if (degree == 1) return "end";
+std::string_view kind_of(const SkeletonGraph& graph, std::uint32_t node, std::uint32_t degree) {
+    if (degree == 1) return graph.nodes[node].is_open_end ? "open_end" : "end";
     return degree == 2 ? "ring" : "junction";
 }
 
@@ -50,8 +51,8 @@ Json branches_json(const SkeletonGraph& graph) {
     Json list = Json::array();
     for (const Branch& branch : find_branches(graph)) {
         list.push_back({{"nodes", branch.nodes},
-                        {"from", kind_of(branch.start_degree)},
-                        {"to", kind_of(branch.stop_degree)},
+                        {"from", kind_of(graph, branch.nodes.front(), branch.start_degree)},
+                        {"to", kind_of(graph, branch.nodes.back(), branch.stop_degree)},
                         {"length", branch.length},
                         {"mean_radius", branch.mean_radius},
                         {"tortuosity", branch.tortuosity}});
@@ -98,6 +99,8 @@ Json statistics_json(const ExtractResult& result) {
             {"vertices", s.vertices},
             {"solids", s.solids},
             {"cavities", s.cavities},
+            {"openings", s.openings},
+            {"open_ends", s.open_ends},
             {"nodes", result.graph.nodes.size()},
             {"edges", result.graph.edges.size()},
             {"edges_without_cycles", s.forest_edges},
@@ -115,6 +118,13 @@ Json statistics_json(const ExtractResult& result) {
             {"seed_states", states},
             {"evaluations", s.evaluations},
             {"seconds", seconds}};
+}
+
+Json repairs_json(const ExtractResult& result) {
+    Json list = Json::array();
+    for (const Repair& repair : result.repairs)
+        list.push_back({{"what", repair.what}, {"count", repair.count}});
+    return list;
 }
 
 // What was not looked for is null.
@@ -239,6 +249,7 @@ std::string skeleton_json(const ExtractResult& result, const Provenance& provena
     members.emplace_back("ignored_handles", rows(handles_json(result)));
     members.emplace_back("statistics", text(statistics_json(result)));
     members.emplace_back("self_check", text(self_check_json(result.check)));
+    members.emplace_back("repairs", rows(repairs_json(result)));
     members.emplace_back("warnings", rows(Json(result.warnings)));
     members.emplace_back("provenance",
                          text(provenance_json(provenance, result.surface.world_from_model)));

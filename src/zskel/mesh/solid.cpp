@@ -133,9 +133,7 @@ Solid one_of_many(const PreparedSurface& prepared, const Component& shell,
     return solid;
 }
 
-}  // namespace
-
-std::vector<Solid> split_solids(const PreparedSurface& prepared) {
+std::vector<Solid> group_components(const PreparedSurface& prepared) {
     if (prepared.component_count == 1) {
         std::vector<Solid> solids{whole_surface(prepared)};
         finish(solids.front(), prepared);
@@ -167,6 +165,24 @@ std::vector<Solid> split_solids(const PreparedSurface& prepared) {
         solids.push_back(one_of_many(prepared, components[i], cavities[i], number));
         finish(solids.back(), prepared);
     }
+    return solids;
+}
+
+}  // namespace
+
+std::vector<Solid> split_solids(const PreparedSurface& prepared) {
+    std::vector<Solid> solids = group_components(prepared);
+    if (prepared.openings.empty()) return solids;
+    std::vector<std::uint32_t> solid_of(prepared.component_count, kNone);
+    for (std::uint32_t s = 0; s < solids.size(); ++s) {
+        for (std::uint32_t t = 0; t < solids[s].triangle.size(); ++t) {
+            const std::uint32_t whole = solids[s].triangle[t];
+            solid_of[prepared.component[whole]] = s;
+            if (prepared.input_triangle[whole] == kNone) solids[s].caps.push_back(t);
+        }
+    }
+    for (const Opening& opening : prepared.openings)
+        solids[solid_of[opening.component]].openings.push_back(opening);
     return solids;
 }
 

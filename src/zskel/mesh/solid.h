@@ -13,9 +13,11 @@ struct Solid {
     Surface surface;  ///< its own vertices and triangles; cavities face their void
     std::vector<std::uint32_t> triangle;  ///< of each of its triangles: the number in the whole
     std::vector<std::uint32_t>
-        vertex;  ///< of each of its vertices: the number in the whole surface
+        vertex;                       ///< of each of its vertices: the number in the whole surface
+    std::vector<Opening> openings;    ///< that caps close, model space
+    std::vector<std::uint32_t> caps;  ///< its triangles that are none of the input's
     std::uint32_t cavity_count = 0;
-    bool is_closed = false;
+    bool is_closed = false;  ///< caps counted in
 };
 
 /// Groups the components of a surface into solids by nesting. Where a surface touches itself in a

@@ -5,251 +5,21 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <numeric>
-#include <tuple>
+#include <limits>
+#include <utility>
 
-#include "zskel/core/bucket_sort.h"
-#include "zskel/core/disjoint_sets.h"
 #include "zskel/core/error.h"
 #include "zskel/core/parallel.h"
+#include "zskel/mesh/cracks.h"
+#include "zskel/mesh/crowded_edges.h"
+#include "zskel/mesh/orient.h"
+#include "zskel/mesh/outlook.h"
 #include "zskel/mesh/sides.h"
-#include "zskel/mesh/weld.h"
 
 namespace zskel {
 namespace {
 
-std::array<std::uint32_t, 3> sorted_corners(const Triangle& t) {
-    std::array<std::uint32_t, 3> corners{t.x, t.y, t.z};
-    std::sort(corners.begin(), corners.end());
-    return corners;
-}
-
-// Numbers the places that triangles use; `positions` come back in model space.
-struct Welded {
-    std::vector<DVec3> positions;
-    std::vector<Triangle> triangles;
-};
-
-Welded weld(const Mesh& mesh, PreparedSurface& out) {
-    Welded welded;
-    out.surface_vertex.assign(mesh.positions.size(), kNone);
-    PlaceIndex places(mesh.positions.size());
-    std::size_t merged = 0;
-    std::size_t collapsed = 0;
-    for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t) {
-        const Triangle& triangle = mesh.triangles[t];
-        Triangle corners;
-        for (int k = 0; k < 3; ++k) {
-            std::uint32_t& place = out.surface_vertex[triangle[k]];
-            if (place == kNone) {
-                const std::size_t known = places.places().size();
-                place = places.add(mesh.positions[triangle[k]]);
-                merged += places.places().size() == known ? 1 : 0;
-            }
-            corners[k] = place;
-        }
-        const bool repeats =
-            corners.x == corners.y || corners.y == corners.z || corners.z == corners.x;
-        collapsed += repeats ? 1 : 0;
-        if (repeats) continue;
-        welded.triangles.push_back(corners);
-        out.input_triangle.push_back(t);
-    }
-    welded.positions = places.take_places();
-    const auto unused = static_cast<std::size_t>(
-        std::count(out.surface_vertex.begin(), out.surface_vertex.end(), kNone));
-    if (merged > 0)
-        out.repairs.push_back({"vertices welded to another at the same position", merged});
-    if (collapsed > 0) out.repairs.push_back({"degenerate faces dropped", collapsed});
-    if (unused > 0) out.repairs.push_back({"vertices without a face left out", unused});
-    return welded;
-}
-
-void drop_duplicates(Welded& welded, PreparedSurface& out) {
-    struct Face {
-        std::array<std::uint32_t, 3> corners;
-        std::uint32_t number;
-    };
-    const auto for_each_face = [&](const auto& visit) {
-        std::uint32_t number = 0;
-        for (const Triangle& t : welded.triangles) visit({sorted_corners(t), number++});
-    };
-    const std::vector<Face> faces = bucket_sorted<Face>(
-        for_each_face, welded.positions.size(), [](const Face& f) { return f.corners[0]; },
-        [](const Face& l, const Face& r) {
-            return std::tie(l.corners, l.number) < std::tie(r.corners, r.number);
-        });
-    std::vector<bool> dropped(faces.size(), false);
-    std::size_t count = 0;
-    for (std::size_t i = 1; i < faces.size(); ++i) {
-        if (faces[i].corners != faces[i - 1].corners) continue;
-        dropped[faces[i].number] = true;
-        ++count;
-    }
-    if (count == 0) return;
-    std::size_t kept = 0;
-    for (std::size_t t = 0; t < dropped.size(); ++t) {
-        if (dropped[t]) continue;
-        welded.triangles[kept] = welded.triangles[t];
-        out.input_triangle[kept++] = out.input_triangle[t];
-    }
-    welded.triangles.resize(kept);
-    out.input_triangle.resize(kept);
-    out.repairs.push_back({"duplicate faces dropped", count});
-}
-
-// Triangles that hang together, each with whether it has to be turned to agree with the lowest.
-class TurnedSets {
-  public:
-    explicit TurnedSets(std::size_t count) {
-        links_.reserve(count);
-        for (std::uint32_t t = 0; t < count; ++t) links_.push_back(t << 1);
-    }
-
-    struct Found {
-        std::uint32_t lowest;
-        bool turned;
-    };
-    Found find(std::uint32_t t) {
-        bool turned = false;
-        while (links_[t] >> 1 != t) {
-            links_[t] = links_[links_[t] >> 1] ^ (links_[t] & 1);  // halves the way
-            turned = turned != ((links_[t] & 1) != 0);
-            t = links_[t] >> 1;
-        }
-        return {t, turned};
-    }
-
-    // False when they already hang together the other way round.
-    bool unite(std::uint32_t t, std::uint32_t u, bool turn) {
-        Found a = find(t);
-        Found b = find(u);
-        if (a.lowest == b.lowest) return (a.turned != b.turned) == turn;
-        if (b.lowest < a.lowest) std::swap(a, b);
-        links_[b.lowest] = a.lowest << 1 | ((a.turned != b.turned) != turn ? 1u : 0u);
-        return true;
-    }
-
-  private:
-    std::vector<std::uint32_t> links_;  // towards the lowest; the lowest bit: turned against it
-};
-
-// Twice the signed volume over three of every component's triangles, taken from its centroid:
-// positive when they face outward, closed or nearly so.
-std::vector<double> signed_volumes(const Welded& welded, const PreparedSurface& out) {
-    std::vector<DVec3> centroids(out.component_count, DVec3(0.0));
-    std::vector<double> counts(out.component_count, 0.0);
-    for (std::size_t t = 0; t < welded.triangles.size(); ++t) {
-        centroids[out.component[t]] += welded.positions[welded.triangles[t].x];
-        counts[out.component[t]] += 1.0;
-    }
-    for (std::size_t c = 0; c < centroids.size(); ++c) centroids[c] /= counts[c];
-    std::vector<double> volumes(out.component_count, 0.0);
-    for (std::size_t t = 0; t < welded.triangles.size(); ++t) {
-        const Triangle& tri = welded.triangles[t];
-        const DVec3& centroid = centroids[out.component[t]];
-        volumes[out.component[t]] += glm::dot(
-            welded.positions[tri.x] - centroid,
-            glm::cross(welded.positions[tri.y] - centroid, welded.positions[tri.z] - centroid));
-    }
-    return volumes;
-}
-
-// Whether the triangles at every vertex hang together over edges.
-bool has_whole_fans(const std::vector<Side>& sides, const Welded& welded) {
-    DisjointSets corners(welded.triangles.size() * 3);
-    std::size_t fans = welded.triangles.size() * 3;
-    for (std::size_t i = 1; i < sides.size(); ++i) {
-        if (sides[i].edge != sides[i - 1].edge) continue;
-        fans -= corners.unite(sides[i].low_corner(), sides[i - 1].low_corner()) ? 1 : 0;
-        fans -= corners.unite(sides[i].high_corner(), sides[i - 1].high_corner()) ? 1 : 0;
-    }
-    return fans == welded.positions.size();
-}
-
-// Joins neighbours over every edge into components, turns those that disagree with the rest, and
-// whole components that face inward.
-void orient(Welded& welded, PreparedSurface& out) {
-    const std::size_t count = welded.triangles.size();
-    std::vector<bool> touches_odd_edge(count, false);
-    std::size_t open_edges = 0;
-    std::size_t crowded_edges = 0;
-    std::size_t contradictions = 0;
-    TurnedSets sets(count);
-    // Neighbours over edges of more than two faces: which of them turns with which cannot be told.
-    std::vector<glm::uvec2> crowd;
-    {
-        const std::vector<Side> sides = sorted_sides(welded.triangles, welded.positions.size());
-        for_each_edge(sides, [&](std::size_t first, std::size_t last) {
-            const std::size_t share = last - first;
-            out.surface.edges.push_back(sides[first].edge);
-            open_edges += share == 1 ? 1 : 0;
-            crowded_edges += share > 2 ? 1 : 0;
-            for (std::size_t i = first; i < last && share != 2; ++i)
-                touches_odd_edge[sides[i].triangle] = true;
-            for (std::size_t i = first; i + 1 < last; ++i) {
-                const Side& a = sides[i];
-                const Side& b = sides[i + 1];
-                if (share > 2) {
-                    crowd.emplace_back(a.triangle, b.triangle);
-                    continue;
-                }
-                const bool agrees = a.is_forward != b.is_forward;
-                contradictions += sets.unite(a.triangle, b.triangle, !agrees) ? 0 : 1;
-            }
-        });
-        out.fans_are_whole = has_whole_fans(sides, welded);
-    }
-    for (const glm::uvec2& pair : crowd) sets.unite(pair.x, pair.y, false);
-
-    out.component.assign(count, kNone);
-    std::vector<std::size_t> sizes;
-    std::vector<std::size_t> turns;
-    for (std::uint32_t t = 0; t < count; ++t) {
-        const TurnedSets::Found found = sets.find(t);
-        if (found.lowest == t) {
-            out.component[t] = out.component_count++;
-            out.component_closed.push_back(true);
-            sizes.push_back(0);
-            turns.push_back(0);
-        }
-        const std::uint32_t c = out.component[t] = out.component[found.lowest];
-        if (touches_odd_edge[t]) out.component_closed[c] = false;
-        ++sizes[c];
-        if (!found.turned) continue;
-        ++turns[c];
-        std::swap(welded.triangles[t].y, welded.triangles[t].z);
-    }
-    const std::vector<double> volumes = signed_volumes(welded, out);
-    for (std::size_t t = 0; t < count; ++t) {
-        if (volumes[out.component[t]] < 0.0)
-            std::swap(welded.triangles[t].y, welded.triangles[t].z);
-    }
-    std::size_t turned_faces = 0;
-    std::size_t turned_components = 0;
-    for (std::size_t c = 0; c < volumes.size(); ++c) {
-        turned_faces += std::min(turns[c], sizes[c] - turns[c]);
-        turned_components += volumes[c] < 0.0 && turns[c] * 2 < sizes[c] ? 1 : 0;
-    }
-    if (turned_faces > 0)
-        out.repairs.push_back({"faces turned to agree with their neighbours", turned_faces});
-    if (turned_components > 0)
-        out.repairs.push_back({"inside-out components turned", turned_components});
-    if (open_edges > 0) {
-        out.repairs.push_back(
-            {"boundary edges left open: what is seen through them does not repel", open_edges});
-    }
-    if (crowded_edges > 0) {
-        out.repairs.push_back(
-            {"non-manifold edges kept: topology is not guaranteed", crowded_edges});
-    }
-    if (contradictions > 0) {
-        out.repairs.push_back(
-            {"edges where no consistent orientation exists: there, inside and outside are not "
-             "known",
-             contradictions});
-    }
-}
+constexpr double kClearOutlook = 0.05;  // by how much a share must be more
 
 Similarity unit_cube(const std::vector<DVec3>& positions, const std::string& name) {
     DVec3 low(std::numeric_limits<double>::max());
@@ -270,7 +40,7 @@ Similarity unit_cube(const std::vector<DVec3>& positions, const std::string& nam
 
 // Second moments of the triangles about their common centroid, in the unit cube so that nothing
 // overflows.
-Similarity by_spread(const Welded& welded, const Similarity& cube) {
+Similarity by_spread(const WeldedMesh& welded, const Similarity& cube) {
     double area_sum = 0.0;
     DVec3 first(0.0);
     double second = 0.0;
@@ -292,17 +62,90 @@ Similarity by_spread(const Welded& welded, const Similarity& cube) {
     return {cube.center + centroid / cube.scale, cube.scale * kWorldSpread / std::sqrt(variance)};
 }
 
+bool has_edge(const std::vector<Side>& sides, bool (*is_meant)(std::size_t)) {
+    bool has = false;
+    for_each_edge(
+        sides, [&](std::size_t first, std::size_t last) { has = has || is_meant(last - first); });
+    return has;
+}
+
+// The sides of the triangles once no edge has fewer or more of them than two where that can be
+// mended.
+std::vector<Side> mend_edges(WeldedMesh& mesh, const RepairOptions& options,
+                             std::vector<Repair>& repairs) {
+    const auto sides_now = [&] { return sorted_sides(mesh.triangles, mesh.positions.size()); };
+    std::vector<Side> sides = sides_now();
+    if (has_edge(sides, [](std::size_t triangles) { return triangles < 2; })) {
+        close_cracks(mesh, options.weld_tolerance_diagonals * diagonal_of(mesh), repairs);
+        drop_duplicates(mesh, repairs);
+        sides = sides_now();
+    }
+    if (has_edge(sides, [](std::size_t triangles) { return triangles > 2; })) {
+        mend_crowded_edges(mesh, repairs);
+        sides = sides_now();
+    }
+    return sides;
+}
+
+// Turns open parts that see less of the outside from their fronts than from their backs.
+void turn_by_outlook(WeldedMesh& mesh, const Orientation& parts, std::vector<Repair>& repairs) {
+    std::vector<std::uint32_t> group(mesh.triangles.size(), kNone);
+    bool is_any = false;
+    for (std::size_t t = 0; t < group.size(); ++t) {
+        const std::uint32_t c = parts.component[t];
+        if (parts.component_closed[c] || !parts.component_orientable[c]) continue;
+        group[t] = c;
+        is_any = true;
+    }
+    if (!is_any) return;
+    const std::vector<Outlook> views = look_out(mesh, group, parts.component_count);
+    std::vector<bool> is_turned(parts.component_count, false);
+    for (std::size_t c = 0; c < views.size(); ++c)
+        is_turned[c] = views[c].back > views[c].front + kClearOutlook;
+    for (std::size_t t = 0; t < group.size(); ++t) {
+        if (group[t] != kNone && is_turned[group[t]])
+            std::swap(mesh.triangles[t].y, mesh.triangles[t].z);
+    }
+    note(repairs, "open parts turned so that their fronts see more of the outside",
+         static_cast<std::size_t>(std::count(is_turned.begin(), is_turned.end(), true)));
+}
+
+void note_what_is_left(const Orientation& parts, std::vector<Repair>& repairs) {
+    const auto open =
+        std::count(parts.component_closed.begin(), parts.component_closed.end(), false);
+    if (open > 0) {
+        note(repairs, "boundary edges left open: what is seen through them does not repel",
+             parts.open_edges);
+    }
+    note(repairs, "non-manifold edges kept: topology is not guaranteed", parts.crowded_edges);
+}
+
+void refuse_repairs(const Mesh& mesh, const std::vector<Repair>& repairs) {
+    std::string all;
+    for (const Repair& repair : repairs)
+        all += fmt::format("{}{}: {}", all.empty() ? "" : "; ", repair.what, repair.count);
+    if (!all.empty())
+        throw InputError(
+            fmt::format("{}: needs repairs, and none are allowed: {}", mesh.name, all));
+}
+
 }  // namespace
 
-PreparedSurface prepare_surface(const Mesh& mesh, WorldSize size) {
+PreparedSurface prepare_surface(const Mesh& mesh, WorldSize size, const RepairOptions& options) {
     PreparedSurface out;
-    Welded welded = weld(mesh, out);
-    drop_duplicates(welded, out);
+    WeldedMesh welded = weld_equal(mesh, out.repairs);
+    drop_duplicates(welded, out.repairs);
+    std::vector<Side> sides = mend_edges(welded, options, out.repairs);
     if (welded.triangles.empty()) {
         throw InputError(fmt::format("{}: no face with three different corners is left of {}",
                                      mesh.name, mesh.triangles.size()));
     }
-    orient(welded, out);
+    Orientation parts = orient(welded, std::move(sides), out.repairs);
+    if (options.has_caps) out.openings = cap_openings(welded, parts, out.repairs);
+    turn_by_outlook(welded, parts, out.repairs);
+    note_what_is_left(parts, out.repairs);
+    if (!options.is_allowed) refuse_repairs(mesh, out.repairs);
+
     out.surface.world_from_model = unit_cube(welded.positions, mesh.name);
     if (size == WorldSize::Spread)
         out.surface.world_from_model = by_spread(welded, out.surface.world_from_model);
@@ -311,6 +154,15 @@ PreparedSurface prepare_surface(const Mesh& mesh, WorldSize size) {
         out.surface.positions.push_back(out.surface.world_from_model.to_world(p));
     }
     out.surface.triangles = std::move(welded.triangles);
+    out.surface.edges = std::move(parts.edges);
+    if (!out.openings.empty()) derive_edges(out.surface);
+    out.input_triangle = std::move(welded.input_triangle);
+    out.surface_vertex = std::move(welded.place);
+    out.input_vertex = std::move(welded.vertex);
+    out.component = std::move(parts.component);
+    out.component_count = parts.component_count;
+    out.component_closed = std::move(parts.component_closed);
+    out.fans_are_whole = parts.fans_are_whole;
     derive_normals(out.surface);
     const bool flat =
         std::all_of(out.surface.triangle_normals.begin(), out.surface.triangle_normals.end(),

@@ -5,7 +5,9 @@
 #include <vector>
 
 #include "zskel/core/types.h"
+#include "zskel/mesh/caps.h"
 #include "zskel/mesh/mesh.h"
+#include "zskel/mesh/welded_mesh.h"
 
 namespace zskel {
 
@@ -30,21 +32,25 @@ struct Surface {
     Similarity world_from_model;
 };
 
-/// Something that had to be changed or is not as a solid should be; goes to the log and the output.
-struct Repair {
-    std::string what;
-    std::size_t count = 0;
+/// What may be done to a mesh that bounds no solid as it is.
+struct RepairOptions {
+    bool is_allowed = true;                  ///< false: such a mesh is refused
+    double weld_tolerance_diagonals = 1e-5;  ///< see close_cracks
+    bool has_caps = false;                   ///< see cap_openings
 };
 
 /// A surface made ready from a mesh, and how the two correspond.
 struct PreparedSurface {
     Surface surface;
     std::vector<std::uint32_t> surface_vertex;  ///< of every input vertex; kNone when unused
-    std::vector<std::uint32_t> input_triangle;  ///< of every triangle: its number in the mesh
+    std::vector<std::uint32_t> input_vertex;    ///< of every vertex: an input vertex at its place
+    std::vector<std::uint32_t> input_triangle;  ///< of every triangle: its number in the mesh;
+                                                ///< kNone for those of caps, last
     std::vector<std::uint32_t> component;       ///< of every triangle: parts joined by edges
     std::uint32_t component_count = 0;
     std::vector<bool> component_closed;  ///< every edge has exactly two triangles
     bool fans_are_whole = false;         ///< the triangles at every vertex hang together over edges
+    std::vector<Opening> openings;       ///< that caps close
     std::vector<Repair> repairs;
 };
 
@@ -56,10 +62,13 @@ enum class WorldSize {
 };
 inline constexpr double kWorldSpread = 0.3;
 
-/// Welds equal positions, drops faces that repeat a corner or another face, orients every component
-/// (consistently, and outward by its signed volume), and scales the whole.
-/// @throws InputError when no triangle with area is left.
-PreparedSurface prepare_surface(const Mesh& mesh, WorldSize size = WorldSize::UnitCube);
+/// Makes a mesh ready, a repair a file: equal positions welded, degenerate and duplicate faces
+/// dropped (welded_mesh.h), cracks closed (cracks.h), non-manifold edges mended (crowded_edges.h),
+/// every component oriented consistently and outward (orient.h), openings capped (caps.h); and
+/// scales the whole. What was done, and what could not be mended, is in `repairs`.
+/// @throws InputError when no triangle with area is left, or a repair is needed and not allowed.
+PreparedSurface prepare_surface(const Mesh& mesh, WorldSize size = WorldSize::UnitCube,
+                                const RepairOptions& options = {});
 
 /// Fills the normals from positions and triangles.
 void derive_normals(Surface& surface);

@@ -12,9 +12,10 @@ namespace zskel {
 struct SkeletonGraph {
     struct Node {
         DVec3 position{0.0};
-        double radius = 0.0;      ///< inscribed: distance to the nearest surface point
-        std::uint32_t solid = 0;  ///< the solid it belongs to
-        double volume = 0.0;      ///< of the part of its solid nearest to it; 0 in open solids
+        double radius = 0.0;       ///< inscribed: distance to the nearest surface point
+        std::uint32_t solid = 0;   ///< the solid it belongs to
+        double volume = 0.0;       ///< of the part of its solid nearest to it; 0 in open solids
+        bool is_open_end = false;  ///< where its branch ends at an opening of the surface
     };
     struct Edge {
         std::uint32_t source = 0;  ///< lower node number

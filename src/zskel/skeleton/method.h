@@ -24,6 +24,7 @@ struct SolidSkeleton {
     std::vector<double> volumes;             ///< world units; empty on open surfaces
     std::vector<glm::uvec2> edges;           ///< lower node first, each once, sorted
     std::vector<std::uint32_t> vertex_node;  ///< of every vertex
+    std::vector<std::uint32_t> open_ends;    ///< nodes at the middles of openings
     std::vector<Seed> seeds;
     std::vector<SettledSeed> settled;  ///< of every seed
     std::size_t forest_edges = 0;      ///< edges left when every cycle is opened at its longest

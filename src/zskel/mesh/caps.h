@@ -1,0 +1,27 @@
+#pragma once
+
+#include <vector>
+
+#include "zskel/mesh/orient.h"
+#include "zskel/mesh/welded_mesh.h"
+
+namespace zskel {
+
+/// A boundary loop that was closed.
+struct Opening {
+    DVec3 center{0.0};    ///< of its rim, weighted by length
+    double radius = 0.0;  ///< of a disc as large as its cap
+    std::uint32_t component = 0;
+    std::vector<DVec3> rim;  ///< in order
+};
+
+/// Closes boundary loops with triangles between the places on their rims, the least in area
+/// (Barequet and Sharir 1995), so that what is behind is seen as closed; they are appended, with
+/// kNone for an input triangle. Left open are components that no orientation fits, that have
+/// crowded edges, or that are sheets: whose capped volume is thin beside the caps; a warning goes
+/// to `repairs`.
+/// @param parts  of the mesh; its components that were closed are said to be.
+std::vector<Opening> cap_openings(WeldedMesh& mesh, Orientation& parts,
+                                  std::vector<Repair>& repairs);
+
+}  // namespace zskel
