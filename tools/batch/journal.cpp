@@ -12,6 +12,7 @@
 #include <string_view>
 
 #include "zskel/core/error.h"
+#include "zskel/core/log.h"
 
 namespace zskel::batch {
 namespace {
@@ -49,7 +50,10 @@ void Journal::lock() {
         throw UsageError(fmt::format(
             "{}: another batch is writing this journal; give each its own by --journal", path_));
     }
-    fail(path_, "cannot be locked");
+    // Some shared file systems have no locks at all.
+    if (errno != ENOLCK && errno != ENOSYS && errno != EOPNOTSUPP) fail(path_, "cannot be locked");
+    log_warning("{}: this file system has no locks: see that no other batch has this journal",
+                path_);
 }
 
 void Journal::read() {

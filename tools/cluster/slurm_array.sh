@@ -14,5 +14,11 @@ zskel=${ZSKEL:-zskel}
 first=${SLURM_ARRAY_TASK_MIN:?submit it with --array=1-N}
 count=$((SLURM_ARRAY_TASK_MAX - first + 1))
 number=$((SLURM_ARRAY_TASK_ID - first + 1))
+cores=${SLURM_CPUS_ON_NODE:-1}
+# The node's share, unless the line says otherwise: memory that a job was not given ends the whole job.
+own=()
+[[ " $* " == *" --workers"* ]] || own+=(--workers "$cores")
+[[ " $* " == *" --item-memory"* || -z ${SLURM_MEM_PER_NODE:-} ]] ||
+    own+=(--item-memory $((SLURM_MEM_PER_NODE * 9 / 10 / cores)))
 # exec: the signals are zskel's, which leaves a state to go on from.
-exec "$zskel" batch "$@" --shard "$number/$count" --workers "${SLURM_CPUS_ON_NODE:-1}"
+exec "$zskel" batch "$@" --shard "$number/$count" "${own[@]}"
