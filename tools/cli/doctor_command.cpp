@@ -76,7 +76,7 @@ std::string batch_text() {
     std::string text = fmt::format(
         "zskel batch: {} cores and {:.0f} MiB free: --workers {}, one thread and at most {:.0f} "
         "MiB "
-        "each;\n{:.0f} MiB are enough for models of some 50,000 faces by the CPU\n",
+        "each;\n{:.0f} MiB are enough for models of 100,000 faces by the CPU\n",
         machine.cores, machine.memory_bytes / kMiB, workers,
         batch::memory_for_worker(machine, workers) / kMiB, batch::kWorkerBytes / kMiB);
     text += machine.has_gpu ? "  all workers share the GPU, each with a context of its own\n"
