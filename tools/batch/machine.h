@@ -15,8 +15,8 @@ struct Machine {
 /// @param root  of the file system.
 Machine look_at_machine(const std::filesystem::path& root = "/");
 
-/// What a worker may take of memory with models of up to 100,000 faces, three times what was
-/// measured (tools/bench/RESULTS.md).
+/// What a worker may take of memory with models of up to 100,000 faces, more than twice what
+/// was measured (tools/bench/RESULTS.md).
 inline constexpr std::size_t kWorkerBytes = std::size_t{256} << 20;
 
 /// One worker a core, as far as memory goes.
