@@ -25,6 +25,7 @@ struct Common {
 
 /// Each adds its subcommand to the program; when that is chosen, `run` is set to what it does.
 using Run = std::function<ExitCode()>;
+void add_batch_command(CLI::App& app, const Common& common, Run& run);
 void add_check_command(CLI::App& app, const Common& common, Run& run);
 void add_compare_command(CLI::App& app, const Common& common, Run& run);
 void add_convert_command(CLI::App& app, const Common& common, Run& run);

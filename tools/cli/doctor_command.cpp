@@ -1,8 +1,10 @@
-// zskel doctor: every way to a GL context, what it gives, and what to do about those that fail.
+// zskel doctor: every way to a GL context, what it gives, and what to do about those that fail; and
+// what a batch can count on.
 #include <fmt/format.h>
 
 #include <nlohmann/json.hpp>
 
+#include "batch/machine.h"
 #include "command.h"
 #include "zskel/visibility/cpu_source.h"
 
@@ -54,6 +56,34 @@ std::string to_text(const gl::Diagnosis& found) {
         info.max_texture_px, info.max_samples, info.seconds * 1e3);
 }
 
+constexpr double kMiB = 1 << 20;
+
+Json batch_json() {
+    const batch::Machine machine = batch::look_at_machine();
+    const std::size_t workers = batch::recommended_workers(machine);
+    return {{"cores", machine.cores},
+            {"memory_mib", static_cast<std::size_t>(machine.memory_bytes / kMiB)},
+            {"memory_of_a_worker_mib", static_cast<std::size_t>(batch::kWorkerBytes / kMiB)},
+            {"memory_share_mib",
+             static_cast<std::size_t>(batch::memory_for_worker(machine, workers) / kMiB)},
+            {"has_gpu", machine.has_gpu},
+            {"workers", workers}};
+}
+
+std::string batch_text() {
+    const batch::Machine machine = batch::look_at_machine();
+    const std::size_t workers = batch::recommended_workers(machine);
+    std::string text = fmt::format(
+        "zskel batch: {} cores and {:.0f} MiB free: --workers {}, one thread and at most {:.0f} "
+        "MiB "
+        "each;\n{:.0f} MiB are enough for models of 100,000 faces by the CPU\n",
+        machine.cores, machine.memory_bytes / kMiB, workers,
+        batch::memory_for_worker(machine, workers) / kMiB, batch::kWorkerBytes / kMiB);
+    text += machine.has_gpu ? "  all workers share the GPU, each with a context of its own\n"
+                            : "  no GPU's device file is there\n";
+    return text;
+}
+
 ExitCode diagnose(bool as_json) {
     const std::vector<gl::Diagnosis> all = gl::diagnose_contexts({});
     const auto first =
@@ -69,7 +99,8 @@ ExitCode diagnose(bool as_json) {
             {"candidates", candidates},
             {"gl_takes", taken.empty() ? Json(nullptr) : Json(taken)},
             {"cpu", {{"instruction_set", cpu_instruction_set()}}},
-            {"auto_takes", "cpu"}};
+            {"auto_takes", "cpu"},
+            {"batch", batch_json()}};
         print(out.dump(2) + "\n");
         return ExitCode::Ok;
     }
@@ -81,7 +112,7 @@ ExitCode diagnose(bool as_json) {
         "The CPU's Z-buffer (registers: {}) and rays (Embree) always work.\n"
         "--backend auto takes: cpu\n",
         cpu_instruction_set());
-    print(text);
+    print(text + batch_text());
     return ExitCode::Ok;
 }
 

@@ -2,13 +2,13 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
-#include <charconv>
 #include <cstdio>
 #include <filesystem>
 #include <nlohmann/json.hpp>
 
 #include "command.h"
 #include "depth_files.h"
+#include "extraction_options.h"
 #include "node_maps.h"
 #include "skeleton_output.h"
 #include "zskel/core/log.h"
@@ -36,21 +36,8 @@ struct Arguments {
     std::string maps;
     int map_px = kDefaultMapPx;
     JsonParts parts;
-    ExtractOptions extract;
-    BackendOptions backend;
-    std::vector<CLI::Option*> newton_only;  // to refuse with the other method
-    std::vector<CLI::Option*> paper_only;
+    ExtractionOptions how;
 };
-
-std::size_t parse_seeds(const std::string& text) {
-    if (text == "all") return std::numeric_limits<std::size_t>::max();
-    std::size_t value = 0;
-    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-    if (error != std::errc() || end != text.data() + text.size() || value < 1) {
-        throw UsageError(fmt::format("--seeds {}: give a number from 1, or all", text));
-    }
-    return value;
-}
 
 // One line that is drawn over itself; on a terminal only.
 class ProgressBar {
@@ -126,20 +113,10 @@ std::string seen_from(const std::string& other, const std::string& path) {
         .generic_string();
 }
 
-void check_method_options(const Arguments& arguments) {
-    const bool is_paper = arguments.extract.method == Method::Paper;
-    for (const CLI::Option* option : is_paper ? arguments.newton_only : arguments.paper_only) {
-        if (option->count() == 0) continue;
-        throw UsageError(fmt::format("{} goes with --method {}, not with {}", option->get_name(),
-                                     is_paper ? "newton" : "paper",
-                                     name_of(arguments.extract.method)));
-    }
-}
-
 ExitCode extract(const Arguments& given, const Common& common) {
-    check_method_options(given);
+    check_method_options(given.how);
     Arguments arguments = given;
-    arguments.extract.paper.steps.keep_paths =
+    arguments.how.extract.paper.steps.keep_paths =
         arguments.parts.paths || !arguments.picture_paths.empty();
     const SkeletonFormat format = format_of(arguments.output);
     if ((arguments.parts.seeds || arguments.parts.paths) && format != SkeletonFormat::Json) {
@@ -153,26 +130,27 @@ ExitCode extract(const Arguments& given, const Common& common) {
     std::unique_ptr<gl::Context> picture_context;
     if (!arguments.picture.empty() || !arguments.picture_paths.empty())
         picture_context = open_picture_context();
-    arguments.backend = backend_options_for(mesh, arguments.extract, arguments.backend);
-    const std::unique_ptr<Backend> backend = open_backend(arguments.backend);
+    arguments.how.backend = backend_options_for(mesh, arguments.how.extract, arguments.how.backend);
+    const std::unique_ptr<Backend> backend = open_backend(arguments.how.backend);
     ExtractResult result;
     {
         ProgressBar bar(common.verbosity >= 0 && common.log_format == "text");
-        arguments.extract.progress = [&](std::string_view stage, double share) {
+        arguments.how.extract.progress = [&](std::string_view stage, double share) {
             return bar.show(stage, share);
         };
-        result = extract_skeleton(mesh, arguments.extract, *backend);
+        result = extract_skeleton(mesh, arguments.how.extract, *backend);
     }
-    const Provenance provenance{arguments.model,   mesh.hash,         common.command,
-                                arguments.extract, arguments.backend, backend->info()};
+    const Provenance provenance{arguments.model,       mesh.hash,
+                                common.command,        arguments.how.extract,
+                                arguments.how.backend, backend->info()};
     if (!arguments.depth_folder.empty()) {
         write_trajectories(arguments.depth_folder, arguments.depth_vertices, mesh,
-                           arguments.extract, *backend);
+                           arguments.how.extract, *backend);
     }
     if (picture_context) draw_pictures(arguments, result, *picture_context);
     if (!arguments.maps.empty()) {
         const VisibilityMaps maps =
-            maps_of(mesh, result.graph, arguments.backend, arguments.map_px);
+            maps_of(mesh, result.graph, arguments.how.backend, arguments.map_px);
         write_output_text(arguments.maps, write_visibility_maps(maps));
         arguments.parts.maps = seen_from(arguments.output.path, arguments.maps);
     }
@@ -184,90 +162,22 @@ ExitCode extract(const Arguments& given, const Common& common) {
     return arguments.strict && !result.check.failures.empty() ? ExitCode::Check : ExitCode::Ok;
 }
 
-// Options that only one method has; given with another they would mean nothing, which is an error.
-void add_method_options(CLI::App& command, Arguments& arguments) {
-    PaperMethodOptions& paper = arguments.extract.paper;
-    NewtonMethodOptions& newton = arguments.extract.newton;
-    constexpr const char* kNewton = "Method newton";
-    constexpr const char* kPaper = "Method paper";
-    arguments.newton_only = {
-        command
-            .add_option_function<std::string>(
-                "--seeds",
-                [&newton](const std::string& text) {
-                    newton.spread.min_seeds = newton.spread.max_seeds = parse_seeds(text);
-                },
-                "How many seeds are spread over the surface, or all: one a vertex [from 1000, as "
-                "many as the thinnest limb needs]")
-            ->type_name("N|all")
-            ->group(kNewton),
-        command
-            .add_option(
-                "--detail", newton.limbs.detail,
-                "How far a limb must stick out to be kept: below 1 more of them, above 1 fewer")
-            ->capture_default_str()
-            ->check(CLI::Range(0.01, 100.0))
-            ->group(kNewton),
-        command
-            .add_option(
-                "--min-handle", newton.min_handle_model,
-                "Handles of a smaller radius get no cycle; they are counted and listed. The "
-                "radius, in the model's units, is the length over 2 pi of the shortest loop "
-                "round the handle or round its hole. 0: every handle gets its cycle")
-            ->type_name("R")
-            ->capture_default_str()
-            ->check(length_or_zero())
-            ->group(kNewton),
-        command
-            .add_option("--resample", newton.resample_model,
-                        "Spread the nodes evenly, at most this far apart, in the model's units; "
-                        "0: by the radius")
-            ->type_name("LENGTH")
-            ->capture_default_str()
-            ->check(length_or_zero())
-            ->group(kNewton),
-        command
-            .add_flag_callback(
-                "--active-contour", [&newton] { newton.refine = active_contour(); },
-                "Keep to the shape's own bends: more centring, less smoothing of branches")
-            ->group(kNewton),
-    };
-    arguments.paper_only = {
-        command.add_option("--step", paper.steps.step_world, "Length of a step, in the unit cube")
-            ->capture_default_str()
-            ->check(positive_length())
-            ->group(kPaper),
-        command
-            .add_option("--max-steps", paper.steps.max_steps, "Steps after which a seed is stopped")
-            ->capture_default_str()
-            ->check(CLI::Range(1, 1 << 30))
-            ->group(kPaper),
-        command
-            .add_option("--offset", paper.seeds.offset_world,
-                        "How far inside the surface seeds start, in the unit cube")
-            ->capture_default_str()
-            ->check(positive_length())
-            ->group(kPaper),
-        command
-            .add_option("--cluster", paper.clusters.range_world,
-                        "Range within which end points become one node, in the unit cube")
-            ->capture_default_str()
-            ->check(length_or_zero())
-            ->group(kPaper),
-    };
-    arguments.paper_only.push_back(
+// What the paper's method alone can write.
+void add_dump_options(CLI::App& command, Arguments& arguments) {
+    CLI::Option* folder =
         command
             .add_option("--dump-depth", arguments.depth_folder,
                         "Write the cube maps along seeds' paths into this folder (EXR)")
-            ->group(kPaper));
-    arguments.paper_only.push_back(
+            ->group(kPaperGroup);
+    CLI::Option* vertices =
         command
             .add_option(
                 "--dump-vertices", arguments.depth_vertices,
                 "Of the seeds of these input vertices, V,V,...; by default of eight spread evenly")
             ->delimiter(',')
-            ->needs(arguments.paper_only.back())
-            ->group(kPaper));
+            ->needs(folder)
+            ->group(kPaperGroup);
+    arguments.how.paper_only.insert(arguments.how.paper_only.end(), {folder, vertices});
 }
 
 }  // namespace
@@ -280,16 +190,8 @@ void add_extract_command(CLI::App& app, const Common& common, Run& run) {
     command->add_option("--correspondence", arguments->correspondence,
                         "Write a segment from each vertex's node to the vertex too, as CGAL does "
                         "beside its polylines (.polylines.txt)");
-    command
-        ->add_option_function<std::string>(
-            "--method",
-            [arguments](const std::string& name) {
-                arguments->extract.method = parse_method(name);
-            },
-            "newton: Newton steps, right topology, refined; paper: the published method [newton]")
-        ->type_name("NAME");
-    add_backend_options(*command, arguments->backend);
-    add_method_options(*command, *arguments);
+    add_extraction_options(*command, arguments->how);
+    add_dump_options(*command, *arguments);
     command->add_option("--keep-maps", arguments->maps,
                         "Write what every node sees into this file: zskel reconstruct rebuilds the "
                         "surface of it");

@@ -10,6 +10,7 @@
 #include <sstream>
 #include <string_view>
 
+#include "batch_worker.h"
 #include "command.h"
 #include "zskel/core/log.h"
 #include "zskel/core/parallel.h"
@@ -27,6 +28,7 @@ Examples:
   zskel convert horse.json -o horse.swc
   zskel rig horse.obj -o horse.glb
   zskel check scan.ply
+  zskel batch scans/ -o 'out/{stem}.json'
   zskel doctor)";
 
 void stop_cleanly(int signal) {
@@ -50,7 +52,8 @@ void set_up(const Common& common) {
                                                    : LogLevel::Debug;
     set_log(level, common.log_format == "json" ? LogFormat::Json : LogFormat::Text);
     set_thread_limit(common.threads);
-    set_limits(common.limits);
+    // The bounds of a whole batch are its parent's.
+    if (!is_batch_worker()) set_limits(common.limits);
 }
 
 // Known before the line is read, so that an error in the line itself has the form asked for.
@@ -126,6 +129,7 @@ int run_program(int argc, char** argv) {
         ->capture_default_str();
     add_limit_options(app, common.limits);
     Run run;
+    add_batch_command(app, common, run);
     add_extract_command(app, common, run);
     add_convert_command(app, common, run);
     add_rig_command(app, common, run);

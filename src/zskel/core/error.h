@@ -57,4 +57,10 @@ class LimitError : public Error {
     explicit LimitError(const std::string& text) : Error(ExitCode::Limit, text) {}
 };
 
+/// Of these: more memory than there is.
+class MemoryError : public LimitError {
+  public:
+    using LimitError::LimitError;
+};
+
 }  // namespace zskel

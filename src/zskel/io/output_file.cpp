@@ -6,6 +6,7 @@
 #include <array>
 #include <atomic>
 #include <cerrno>
+#include <charconv>
 #include <cstdio>
 #include <cstring>
 #include <filesystem>
@@ -19,6 +20,7 @@ namespace {
 // bytes.
 constexpr std::size_t kSlots = 8;
 constexpr std::size_t kMaxPath = 4096;
+constexpr std::string_view kPartial = ".partial.";
 struct Slot {
     std::atomic<bool> taken{false};
     std::atomic<bool> armed{false};
@@ -82,10 +84,7 @@ void write_output_file(const std::string& path,
     const std::filesystem::path target = std::filesystem::exists(status)
                                              ? std::filesystem::canonical(path)
                                              : std::filesystem::path(path);
-    // The extension stays at the end, for writers that choose their format by it.
-    const std::string temporary = (target.parent_path() / fmt::format(".{}.partial.{}", ::getpid(),
-                                                                      target.filename().string()))
-                                      .string();
+    const std::string temporary = temporary_path(target, ::getpid()).string();
     Unfinished guard(temporary);
     write(temporary);
     if (std::rename(temporary.c_str(), target.c_str()) != 0) fail(path);
@@ -108,6 +107,22 @@ void write_output_text(const std::string& path, std::string_view text) {
         }
         if (std::fclose(file) != 0) fail(path);
     });
+}
+
+// The extension stays at the end, for writers that choose their format by it.
+std::filesystem::path temporary_path(const std::filesystem::path& target, int pid) {
+    return target.parent_path() / fmt::format(".{}{}{}", pid, kPartial, target.filename().string());
+}
+
+std::optional<TemporaryFile> parse_temporary_name(const std::string& name) {
+    const std::size_t at = name.find(kPartial);
+    if (!name.starts_with('.') || at == std::string::npos) return std::nullopt;
+    TemporaryFile found{0, name.substr(at + kPartial.size())};
+    const char* const end = name.data() + at;
+    const auto [stop, error] = std::from_chars(name.data() + 1, end, found.pid);
+    if (error != std::errc() || stop != end || found.pid < 1 || found.target_name.empty())
+        return std::nullopt;
+    return found;
 }
 
 void remove_unfinished_files() noexcept {

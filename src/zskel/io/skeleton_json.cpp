@@ -258,6 +258,10 @@ std::string skeleton_json(const ExtractResult& result, const Provenance& provena
     return object(members);
 }
 
+std::string options_text(const Provenance& provenance) {
+    return text(options_json(provenance));
+}
+
 std::string write_graph_json(const SkeletonGraph& graph, const std::string& command) {
     const GraphTopology topology = graph_topology(graph);
     const Json statistics{{"nodes", graph.nodes.size()},

@@ -28,4 +28,7 @@ struct JsonParts {
 std::string skeleton_json(const ExtractResult& result, const Provenance& provenance,
                           const JsonParts& parts);
 
+/// The options of that file alone, on one line: two that are equal ask for the same skeleton.
+std::string options_text(const Provenance& provenance);
+
 }  // namespace zskel

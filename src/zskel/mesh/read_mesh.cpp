@@ -74,9 +74,9 @@ Mesh read_mesh(const std::string& path, const ReadOptions& options) try {
     if (!format) format = format_of_content(bytes, path);
     return parse_mesh(std::as_bytes(std::span(bytes)), *format, path, options);
 } catch (const std::bad_alloc&) {
-    throw LimitError(fmt::format("{}: the model takes more memory than there is", path));
+    throw MemoryError(fmt::format("{}: the model takes more memory than there is", path));
 } catch (const std::length_error&) {
-    throw LimitError(fmt::format("{}: the model takes more memory than there can be", path));
+    throw MemoryError(fmt::format("{}: the model takes more memory than there can be", path));
 }
 
 Mesh parse_mesh(std::span<const std::byte> bytes, MeshFormat format, const std::string& name,

@@ -1,0 +1,101 @@
+#include "batch/plan.h"
+
+#include <fmt/format.h>
+
+#include <charconv>
+#include <filesystem>
+#include <set>
+#include <string_view>
+#include <unordered_map>
+
+#include "batch/output_template.h"
+#include "zskel/core/error.h"
+
+namespace zskel::batch {
+namespace {
+
+namespace fs = std::filesystem;
+
+bool parse_number(std::string_view text, std::size_t& value) {
+    const char* const end = text.data() + text.size();
+    const auto [stop, error] = std::from_chars(text.data(), end, value);
+    return error == std::errc() && stop == end;
+}
+
+// One spelling a file, without asking the file system about each of a hundred thousand.
+std::string plain_path(const fs::path& here, const std::string& path) {
+    return (here / path).lexically_normal().string();
+}
+
+// By the output: which item has it. By the model: any.
+void check_outputs(const std::vector<Item>& items) {
+    const fs::path here = fs::current_path();
+    std::unordered_map<std::string, const Item*> taken;
+    for (const Item& item : items) {
+        const auto [other, is_new] = taken.emplace(plain_path(here, item.output), &item);
+        if (is_new) continue;
+        throw UsageError(fmt::format(
+            "{}: the output of two models, {} and {}; --output can tell them apart by {{dir}} or "
+            "{{index}}",
+            item.output, other->second->model, item.model));
+    }
+    for (const Item& item : items) {
+        const auto other = taken.find(plain_path(here, item.model));
+        if (other == taken.end()) continue;
+        throw UsageError(fmt::format("{}: the output of {} would replace this model", item.model,
+                                     other->second->model));
+    }
+}
+
+}  // namespace
+
+Shard parse_shard(const std::string& text) {
+    const std::size_t slash = text.find('/');
+    Shard shard;
+    const bool fine = slash != std::string::npos &&
+                      parse_number(std::string_view(text).substr(0, slash), shard.number) &&
+                      parse_number(std::string_view(text).substr(slash + 1), shard.count) &&
+                      shard.number >= 1 && shard.number <= shard.count;
+    if (!fine) throw UsageError(fmt::format("--shard {}: give I/N, I from 1 to N", text));
+    return shard;
+}
+
+std::vector<Item> plan_items(const std::vector<Entry>& entries, const std::string& pattern) {
+    std::vector<Item> items;
+    items.reserve(entries.size());
+    for (std::size_t i = 0; i < entries.size(); ++i) {
+        const Entry& entry = entries[i];
+        std::string output = entry.output.empty() ? fill_template(pattern, entry, i) : entry.output;
+        if (entry.model == "-" || output == "-" || output.empty()) {
+            throw UsageError(
+                fmt::format("item {}: models and outputs of a batch are files, not '{}'", i,
+                            entry.model == "-" ? entry.model : output));
+        }
+        if ((entry.model + output).find('\0') != std::string::npos)
+            throw UsageError(fmt::format("item {}: a name holds a zero byte", i));
+        items.push_back({i, entry.model, std::move(output)});
+    }
+    check_outputs(items);
+    return items;
+}
+
+std::vector<Item> items_of_shard(const std::vector<Item>& items, const Shard& shard) {
+    std::vector<Item> mine;
+    for (std::size_t i = shard.number - 1; i < items.size(); i += shard.count)
+        mine.push_back(items[i]);
+    return mine;
+}
+
+void make_folders(const std::vector<Item>& items) {
+    std::set<fs::path> folders;
+    for (const Item& item : items) folders.insert(fs::path(item.output).parent_path());
+    for (const fs::path& folder : folders) {
+        std::error_code error;
+        if (!folder.empty()) fs::create_directories(folder, error);
+        if (error) {
+            throw IoError(fmt::format("{}: cannot be made: {}", folder.string(), error.message()));
+        }
+    }
+}
+
+}  // namespace zskel::batch
