@@ -261,7 +261,34 @@ BackendOptions backend_options_for(const Mesh& mesh, const ExtractOptions& optio
     return backend;
 }
 
+namespace {
+
+// Of the parts' union; vertices go by the nearest of its surface.
+ExtractResult extract_joined(const Mesh& mesh, ExtractOptions options, Backend& backend) {
+    const JoinedMesh joined = join_parts(mesh, options.repair, *std::exchange(options.join, {}));
+    ExtractResult result = extract_skeleton(joined.mesh, options, backend);
+    std::vector<std::uint32_t> vertex_node;
+    vertex_node.reserve(joined.nearest.size());
+    for (const std::uint32_t v : joined.nearest)
+        vertex_node.push_back(v == kNone ? kNone : result.graph.vertex_node[v]);
+    result.graph.vertex_node = std::move(vertex_node);
+    std::vector<std::uint32_t> input_vertex(joined.mesh.positions.size(), kNone);
+    for (std::uint32_t v = 0; v < joined.nearest.size(); ++v) {
+        if (joined.nearest[v] != kNone) input_vertex[joined.nearest[v]] = v;
+    }
+    for (SeedReport& seed : result.seeds) seed.vertex = input_vertex[seed.vertex];
+    for (const Repair& repair : joined.repairs) {
+        result.repairs.push_back(repair);
+        result.warnings.push_back(fmt::format("{}: {}", repair.what, repair.count));
+        log_warning("{}: {}", mesh.name, result.warnings.back());
+    }
+    return result;
+}
+
+}  // namespace
+
 ExtractResult extract_skeleton(const Mesh& mesh, const ExtractOptions& options, Backend& backend) {
+    if (options.join) return extract_joined(mesh, options, backend);
     ExtractResult result;
     Stages stages(result.statistics, options);
     stages.begin("prepare");

@@ -1,11 +1,13 @@
 #pragma once
 
 #include <functional>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include "zskel/core/error.h"
+#include "zskel/join.h"
 #include "zskel/mesh/mesh.h"
 #include "zskel/mesh/surface.h"
 #include "zskel/self_check.h"
@@ -26,6 +28,7 @@ std::string_view name_of(Method method);
 struct ExtractOptions {
     Method method = Method::Newton;
     RepairOptions repair{.has_caps = true};
+    std::optional<JoinOptions> join;  ///< parts that overlap or touch become one
     NewtonMethodOptions newton;
     PaperMethodOptions paper;
     /// Told the stage and its share done, on the caller's thread; false stops the work (`Cancelled`

@@ -35,6 +35,7 @@ void add_doctor_command(CLI::App& app, const Common& common, Run& run);
 void add_extract_command(CLI::App& app, const Common& common, Run& run);
 void add_match_command(CLI::App& app, const Common& common, Run& run);
 void add_reconstruct_command(CLI::App& app, const Common& common, Run& run);
+void add_repair_command(CLI::App& app, const Common& common, Run& run);
 void add_report_command(CLI::App& app, const Common& common, Run& run);
 void add_rig_command(CLI::App& app, const Common& common, Run& run);
 

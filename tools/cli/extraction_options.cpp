@@ -101,7 +101,44 @@ void add_extraction_options(CLI::App& command, ExtractionOptions& options) {
             "newton: Newton steps, right topology, refined; paper: the published method [newton]")
         ->type_name("NAME");
     add_backend_options(command, options.backend);
+    add_repair_options(command, options.extract);
     add_method_options(command, options);
+}
+
+void add_repair_options(CLI::App& command, ExtractOptions& options) {
+    constexpr const char* kGroup = "Repairs";
+    command
+        .add_flag_callback(
+            "--no-repair", [&options] { options.repair.is_allowed = false; },
+            "Refuse models that need any, with exit code 3")
+        ->group(kGroup);
+    command
+        .add_option("--weld-tolerance", options.repair.weld_tolerance_diagonals,
+                    "How far apart vertices on boundary edges may be to be welded, in diagonals of "
+                    "the bounding box; 0: only equal ones are")
+        ->capture_default_str()
+        ->check(length_or_zero())
+        ->group(kGroup);
+    command
+        .add_flag_callback(
+            "--no-caps", [&options] { options.repair.has_caps = false; },
+            "Leave openings open: what is seen through them does not repel")
+        ->group(kGroup);
+    CLI::Option* join =
+        command
+            .add_flag_callback(
+                "--join", [&options] { options.join = options.join.value_or(JoinOptions{}); },
+                "Unite parts that overlap or touch, by their winding number")
+            ->group(kGroup);
+    command
+        .add_option_function<double>(
+            "--join-voxel", [&options](double side) { options.join = JoinOptions{side}; },
+            "Side of the cubes that the union is sampled in, in the model's units [the longest "
+            "side / 160]")
+        ->type_name("LENGTH")
+        ->check(positive_length())
+        ->needs(join)
+        ->group(kGroup);
 }
 
 void check_method_options(const ExtractionOptions& options) {

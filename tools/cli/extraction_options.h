@@ -22,6 +22,9 @@ inline constexpr const char* kPaperGroup = "Method paper";
 /// the command.
 void add_extraction_options(CLI::App& command, ExtractionOptions& options);
 
+/// Adds --no-repair, --weld-tolerance, --no-caps, --join and --join-voxel.
+void add_repair_options(CLI::App& command, ExtractOptions& options);
+
 /// @throws UsageError when an option was given that the chosen method does not have.
 void check_method_options(const ExtractionOptions& options);
 

@@ -138,6 +138,7 @@ int run_program(int argc, char** argv) {
     add_match_command(app, common, run);
     add_report_command(app, common, run);
     add_check_command(app, common, run);
+    add_repair_command(app, common, run);
     add_depth_command(app, common, run);
     add_compare_command(app, common, run);
     add_doctor_command(app, common, run);

@@ -149,7 +149,12 @@ Json options_json(const Provenance& provenance) {
              {"backend", name_of(provenance.backend_options.kind)},
              {"gpu", provenance.backend_options.gpu},
              {"face_px", provenance.backend_options.face_px},
-             {"rays", provenance.backend_options.rays}};
+             {"rays", provenance.backend_options.rays},
+             {"repairs", o.repair.is_allowed},
+             {"weld_tolerance_diagonals", o.repair.weld_tolerance_diagonals},
+             {"caps", o.repair.has_caps},
+             {"join", o.join.has_value()}};
+    if (o.join) out["join_voxel_model"] = o.join->voxel_model;
     if (o.method == Method::Paper) {
         out.update({{"offset_world", o.paper.seeds.offset_world},
                     {"max_offset_thickness", o.paper.seeds.max_offset_thickness},

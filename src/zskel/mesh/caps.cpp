@@ -4,6 +4,8 @@
 #include <cmath>
 #include <limits>
 #include <map>
+#include <numbers>
+#include <unordered_map>
 #include <unordered_set>
 #include <utility>
 
@@ -15,6 +17,7 @@ namespace {
 
 constexpr std::size_t kMostAtOnce = 160;  // places on a rim: the search takes their cube
 constexpr double kThinnest = 0.05;        // thrice volume over area, in the caps' size
+constexpr double kMostInPlane = 0.7;      // cosine between the rim's walls and the cap
 constexpr double kNever = std::numeric_limits<double>::infinity();
 
 using Loop = std::vector<std::uint32_t>;  // places, in the direction that a cap runs along its rim
@@ -23,9 +26,13 @@ std::uint64_t key_of(std::uint32_t a, std::uint32_t b) {
     return static_cast<std::uint64_t>(std::min(a, b)) << 32 | std::max(a, b);
 }
 
-double area_of(const WeldedMesh& mesh, const Triangle& t) {
+DVec3 area_vector(const WeldedMesh& mesh, const Triangle& t) {
     const DVec3& a = mesh.positions[t.x];
-    return 0.5 * glm::length(glm::cross(mesh.positions[t.y] - a, mesh.positions[t.z] - a));
+    return 0.5 * glm::cross(mesh.positions[t.y] - a, mesh.positions[t.z] - a);
+}
+
+double area_of(const WeldedMesh& mesh, const Triangle& t) {
+    return glm::length(area_vector(mesh, t));
 }
 
 // Rims as they are walked round, fan by fan where a place has several, each place once.
@@ -189,20 +196,35 @@ class RimFiller {
     const std::unordered_set<std::uint64_t>& edges_;
 };
 
-Opening opening_of(const WeldedMesh& mesh, const Loop& rim, const std::vector<Triangle>& cap) {
+// The triangle at each edge that has one only.
+using Walls = std::unordered_map<std::uint64_t, std::uint32_t>;
+
+Opening opening_of(const WeldedMesh& mesh, const Loop& rim, const std::vector<Triangle>& cap,
+                   const Walls& walls) {
     Opening out;
+    double area = 0.0;
+    DVec3 facing(0.0);
+    for (const Triangle& t : cap) {
+        area += area_of(mesh, t);
+        facing += area_vector(mesh, t);
+    }
+    out.radius = std::sqrt(area / std::numbers::pi);
     double length = 0.0;
+    double in_plane = 0.0;
     for (std::size_t i = 0; i < rim.size(); ++i) {
-        const DVec3& a = mesh.positions[rim[i]];
-        const DVec3& b = mesh.positions[rim[(i + 1) % rim.size()]];
-        out.center += 0.5 * (a + b) * glm::distance(a, b);
-        length += glm::distance(a, b);
-        out.rim.push_back(a);
+        const std::uint32_t from = rim[i];
+        const std::uint32_t to = rim[(i + 1) % rim.size()];
+        const double step = glm::distance(mesh.positions[from], mesh.positions[to]);
+        out.center += 0.5 * (mesh.positions[from] + mesh.positions[to]) * step;
+        length += step;
+        const auto wall = walls.find(key_of(from, to));
+        if (wall == walls.end()) continue;
+        const DVec3 normal = area_vector(mesh, mesh.triangles[wall->second]);
+        const double norm = glm::length(normal) * glm::length(facing);
+        if (norm > 0.0) in_plane += step * std::abs(glm::dot(normal, facing)) / norm;
     }
     out.center /= length;
-    double area = 0.0;
-    for (const Triangle& t : cap) area += area_of(mesh, t);
-    out.radius = std::sqrt(area / 3.14159265358979323846);
+    out.is_end = in_plane < kMostInPlane * length;
     return out;
 }
 
@@ -230,9 +252,12 @@ void add_triangle(const WeldedMesh& mesh, const Triangle& t, const DVec3& from, 
 std::map<std::uint32_t, Capped> fill_rims(const WeldedMesh& mesh, const Orientation& parts) {
     const std::vector<Side> sides = sorted_sides(mesh.triangles, mesh.positions.size());
     std::unordered_set<std::uint64_t> edges;
+    Walls walls;
     std::map<std::uint32_t, Capped> capped;
     for_each_edge(sides, [&](std::size_t first, std::size_t last) {
-        edges.insert(key_of(sides[first].edge.x, sides[first].edge.y));
+        const std::uint64_t key = key_of(sides[first].edge.x, sides[first].edge.y);
+        edges.insert(key);
+        if (last - first == 1) walls.emplace(key, sides[first].triangle);
         if (last - first > 2) capped[parts.component[sides[first].triangle]].can_be = false;
     });
     for (const auto& [rim, triangle] : RimWalker(mesh, sides).rims()) {
@@ -247,7 +272,7 @@ std::map<std::uint32_t, Capped> fill_rims(const WeldedMesh& mesh, const Orientat
         for (const Triangle& t : cap) {
             for (int k = 0; k < 3; ++k) edges.insert(key_of(t[k], t[(k + 1) % 3]));
         }
-        mine.openings.push_back(opening_of(mesh, rim, cap));
+        mine.openings.push_back(opening_of(mesh, rim, cap, walls));
         mine.openings.back().component = component;
         mine.caps.insert(mine.caps.end(), cap.begin(), cap.end());
     }

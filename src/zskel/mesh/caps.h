@@ -12,7 +12,8 @@ struct Opening {
     DVec3 center{0.0};    ///< of its rim, weighted by length
     double radius = 0.0;  ///< of a disc as large as its cap
     std::uint32_t component = 0;
-    std::vector<DVec3> rim;  ///< in order
+    bool is_end = false;  ///< the walls at its rim run across it, as a tube's do where it ends; a
+                          ///< hole in a side has them round it in its own plane
 };
 
 /// Closes boundary loops with triangles between the places on their rims, the least in area

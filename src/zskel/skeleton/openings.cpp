@@ -1,6 +1,7 @@
 #include "zskel/skeleton/openings.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "zskel/core/edges.h"
 
@@ -9,7 +10,8 @@ namespace {
 
 constexpr float kLeastWidth = 0.5f;  // of an opening, in radii of the branch that ends at it
 constexpr float kFarthest = 4.0f;  // of an end from the middle of its opening, in the larger radius
-constexpr float kInside = 1e-3f;   // how far inside the rim's middle an end stays, in radii
+constexpr float kInside = 1e-3f;  // how near to the rim's middle its node is, as a share of the way
+constexpr float kSpacing = 0.02f;  // of nodes on the way, world units
 
 // The solid without its caps.
 Surface walls_of(const Solid& solid) {
@@ -36,32 +38,45 @@ class Runner {
     }
 
     void run_to(const Vec3& middle, float radius) {
-        std::uint32_t best = kNone;
-        float least = kInfinity;
-        for (std::uint32_t n = 0; n < degree_.size(); ++n) {
-            if (degree_[n] > 1) continue;
-            const Vec3& from = skeleton_.nodes[n];
-            const float own = skeleton_.radii[n];
-            const float away = glm::distance(from, middle);
-            const bool is_meant =
-                radius >= kLeastWidth * own && away <= kFarthest * std::max(own, radius);
-            const Vec3 inside = glm::mix(middle, from, kInside);
-            if (!is_meant || away >= least || !query_.sees(from, inside)) continue;
-            best = n;
-            least = away;
+        std::uint32_t from = nearest(middle, radius, 1, kFarthest);
+        if (from == kNone) from = nearest(middle, radius, kNone, kInfinity);
+        if (from == kNone) return;
+        const Vec3 start = skeleton_.nodes[from];
+        const Vec3 end = glm::mix(middle, start, kInside);
+        const auto steps = static_cast<int>(std::ceil(glm::distance(start, end) / kSpacing));
+        for (int k = 1; k <= steps; ++k) {
+            const Vec3 place =
+                glm::mix(start, end, static_cast<float>(k) / static_cast<float>(steps));
+            const auto added = static_cast<std::uint32_t>(skeleton_.nodes.size());
+            skeleton_.nodes.push_back(place);
+            skeleton_.radii.push_back(walls_.nearest(place).distance);
+            skeleton_.edges.emplace_back(from, added);
+            ++degree_[from];
+            degree_.push_back(1);
+            from = added;
         }
-        if (best == kNone) return;
-        const Vec3 end = glm::mix(middle, skeleton_.nodes[best], kInside);
-        const auto added = static_cast<std::uint32_t>(skeleton_.nodes.size());
-        skeleton_.nodes.push_back(end);
-        skeleton_.radii.push_back(walls_.nearest(end).distance);
-        skeleton_.edges.emplace_back(best, added);
-        skeleton_.open_ends.push_back(added);
-        ++degree_[best];
-        degree_.push_back(2);  // no other opening's end
+        skeleton_.open_ends.push_back(from);
+        degree_[from] = kNone;  // no other opening's end
     }
 
   private:
+    std::uint32_t nearest(const Vec3& middle, float radius, std::uint32_t most_edges,
+                          float farthest) const {
+        std::uint32_t best = kNone;
+        float least = kInfinity;
+        for (std::uint32_t n = 0; n < degree_.size(); ++n) {
+            if (degree_[n] > most_edges || degree_[n] == kNone) continue;
+            const Vec3& from = skeleton_.nodes[n];
+            const float own = skeleton_.radii[n];
+            const float away = glm::distance(from, middle);
+            if (radius < kLeastWidth * own || away > farthest * std::max(own, radius)) continue;
+            if (away >= least || !query_.sees(from, glm::mix(middle, from, kInside))) continue;
+            best = n;
+            least = away;
+        }
+        return best;
+    }
+
     const SurfaceQuery& query_;
     const SurfaceQuery& walls_;
     SolidSkeleton& skeleton_;
@@ -77,9 +92,11 @@ void run_to_openings(const Solid& solid, const SurfaceQuery& query, SolidSkeleto
         skeleton.radii[n] = walls.nearest(skeleton.nodes[n]).distance;
     Runner runner(query, walls, skeleton);
     const Similarity& to_world = solid.surface.world_from_model;
-    for (const Opening& opening : solid.openings)
+    for (const Opening& opening : solid.openings) {
+        if (!opening.is_end) continue;
         runner.run_to(to_world.to_world(opening.center),
                       static_cast<float>(opening.radius * to_world.scale));
+    }
     std::sort(skeleton.edges.begin(), skeleton.edges.end(), edge_before);
 }
 
