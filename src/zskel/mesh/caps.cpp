@@ -17,6 +17,7 @@ namespace {
 
 constexpr std::size_t kMostAtOnce = 160;  // places on a rim: the search takes their cube
 constexpr double kThinnest = 0.05;        // thrice volume over area, in the caps' size
+constexpr double kScrap = 1e-3;           // share of the area
 constexpr double kMostInPlane = 0.7;      // cosine between the rim's walls and the cap
 constexpr double kNever = std::numeric_limits<double>::infinity();
 
@@ -279,6 +280,44 @@ std::map<std::uint32_t, Capped> fill_rims(const WeldedMesh& mesh, const Orientat
     return capped;
 }
 
+// Leaves out the components that stay open and are next to nothing beside all; the others get new
+// numbers.
+std::size_t drop_scraps(WeldedMesh& mesh, Orientation& parts, std::vector<Opening>& openings) {
+    std::vector<double> areas(parts.component_count, 0.0);
+    double all = 0.0;
+    for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+        const double area = area_of(mesh, mesh.triangles[t]);
+        areas[parts.component[t]] += area;
+        all += area;
+    }
+    const auto& closed = parts.component_closed;
+    if (std::find(closed.begin(), closed.end(), true) == closed.end()) return 0;
+    std::vector<std::uint32_t> number(parts.component_count, kNone);
+    Orientation kept;
+    for (std::uint32_t c = 0; c < number.size(); ++c) {
+        if (!closed[c] && areas[c] < kScrap * all) continue;
+        number[c] = kept.component_count++;
+        kept.component_closed.push_back(closed[c]);
+        kept.component_orientable.push_back(parts.component_orientable[c]);
+    }
+    const std::size_t dropped = number.size() - kept.component_count;
+    if (dropped == 0) return 0;
+    std::vector<bool> drop(mesh.triangles.size());
+    for (std::size_t t = 0; t < drop.size(); ++t) {
+        const std::uint32_t c = number[parts.component[t]];
+        drop[t] = c == kNone;
+        if (c != kNone) kept.component.push_back(c);
+    }
+    drop_triangles(mesh, drop);
+    keep_used_places(mesh);
+    for (Opening& opening : openings) opening.component = number[opening.component];
+    parts.component = std::move(kept.component);
+    parts.component_count = kept.component_count;
+    parts.component_closed = std::move(kept.component_closed);
+    parts.component_orientable = std::move(kept.component_orientable);
+    return dropped;
+}
+
 }  // namespace
 
 std::vector<Opening> cap_openings(WeldedMesh& mesh, Orientation& parts,
@@ -323,6 +362,8 @@ std::vector<Opening> cap_openings(WeldedMesh& mesh, Orientation& parts,
     for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
         if (is_turned[parts.component[t]]) std::swap(mesh.triangles[t].y, mesh.triangles[t].z);
     }
+    const std::size_t scraps = drop_scraps(mesh, parts, openings);
+    note(repairs, "loose scraps left out, of less than a thousandth of the area", scraps);
     note(repairs, "openings closed with caps, which are in no output", openings.size());
     note(repairs, "sheets left open: too thin to hold anything, their skeletons mean little",
          sheets);

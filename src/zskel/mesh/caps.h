@@ -21,6 +21,8 @@ struct Opening {
 /// kNone for an input triangle. Left open are components that no orientation fits, that have
 /// crowded edges, or that are sheets: whose capped volume is thin beside the caps; a warning goes
 /// to `repairs`.
+/// Scraps, parts of less than a thousandth of the area that stay open beside one that is closed,
+/// are left out.
 /// @param parts  of the mesh; its components that were closed are said to be.
 std::vector<Opening> cap_openings(WeldedMesh& mesh, Orientation& parts,
                                   std::vector<Repair>& repairs);

@@ -5,7 +5,6 @@
 #include <cmath>
 #include <map>
 #include <numbers>
-#include <numeric>
 #include <utility>
 
 #include "zskel/core/disjoint_sets.h"
@@ -215,9 +214,7 @@ void mend_crowded_edges(WeldedMesh& mesh, std::vector<Repair>& repairs) {
     note(repairs, "faces left out that hang loose from an edge with two others", drop_fins(mesh));
     note(repairs, "faces left out that part what is one inside", drop_walls(mesh));
     note(repairs, "non-manifold edges parted", part_pairs(mesh));
-    std::vector<std::uint32_t> same(mesh.positions.size());
-    std::iota(same.begin(), same.end(), 0u);
-    renumber(mesh, same);  // lets go of places that only what was left out had
+    keep_used_places(mesh);
 }
 
 }  // namespace zskel

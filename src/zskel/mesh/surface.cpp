@@ -155,7 +155,8 @@ PreparedSurface prepare_surface(const Mesh& mesh, WorldSize size, const RepairOp
     }
     out.surface.triangles = std::move(welded.triangles);
     out.surface.edges = std::move(parts.edges);
-    if (!out.openings.empty()) derive_edges(out.surface);
+    // Caps have edges of their own, and what was left out has none.
+    if (parts.open_edges > 0 && options.has_caps) derive_edges(out.surface);
     out.input_triangle = std::move(welded.input_triangle);
     out.surface_vertex = std::move(welded.place);
     out.input_vertex = std::move(welded.vertex);

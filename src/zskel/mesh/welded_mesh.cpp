@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <numeric>
 #include <tuple>
 #include <utility>
 
@@ -88,6 +89,12 @@ std::size_t renumber(WeldedMesh& mesh, const std::vector<std::uint32_t>& number)
         if (place != kNone) place = packed[number[place]];
     }
     return dropped;
+}
+
+void keep_used_places(WeldedMesh& mesh) {
+    std::vector<std::uint32_t> same(mesh.positions.size());
+    std::iota(same.begin(), same.end(), 0u);
+    renumber(mesh, same);
 }
 
 void drop_triangles(WeldedMesh& mesh, const std::vector<bool>& drop) {

@@ -37,6 +37,9 @@ WeldedMesh weld_equal(const Mesh& mesh, std::vector<Repair>& repairs);
 /// @return        the triangles dropped.
 std::size_t renumber(WeldedMesh& mesh, const std::vector<std::uint32_t>& number);
 
+/// Lets go of places that no triangle uses.
+void keep_used_places(WeldedMesh& mesh);
+
 /// Leaves out every triangle for which `drop` is set. Places stay.
 void drop_triangles(WeldedMesh& mesh, const std::vector<bool>& drop);
 
