@@ -300,6 +300,8 @@ def ply_files():
     for cut in (10, len(binary) // 2, len(binary) - 60, len(binary) - 1):
         yield f"cut_at_{cut}.ply", binary[:cut], "error"
     yield "more_behind.ply", binary + b"xyz", "any"
+    many = "".join(f"property uchar p{i}\n" for i in range(300000))
+    yield "many_properties.ply", good.replace("element face", many + "element face"), "error"
 
 
 def stl_files():
