@@ -134,10 +134,13 @@ def skeletons():
     }
 
 
-def maps(face_px=4):
+def map_node(face_px=4):
     texels = 6 * face_px * face_px
-    node = struct.pack("<3dI2f", 0, 0.5, 1, 0, 0.25, 4.0) + bytes(i % 256 for i in range(2 * texels))
-    packed = zlib.compress(node * 2)
+    return struct.pack("<3dI2f", 0, 0.5, 1, 0, 0.25, 4.0) + bytes(i % 256 for i in range(2 * texels))
+
+
+def maps(face_px):
+    packed = zlib.compress(map_node(face_px) * 2)
     return b"zskelmap" + struct.pack("<3IQ", 1, face_px, 2, len(packed)) + packed
 
 
@@ -172,7 +175,7 @@ def all_seeds(models):
         "stl": [ascii_stl(small), binary_stl(small), binary_stl(TETRAHEDRON)],
         "bpt": [bpt(), one_patch],
         "surfacejson": [json.dumps(s) for s in surfaces()],
-        "maps": [maps(), maps(5)],
+        "maps": [maps(4), maps(5), map_node() * 2],
         "index": [index()],
         "pose": [json.dumps(p) for p in POSES],
         "chain": [packed_mesh(c, s) for c in (0, 2, 4, 8, 16, 24) for s in (wide, ring(), TETRAHEDRON)]
