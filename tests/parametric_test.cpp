@@ -144,6 +144,38 @@ TEST_CASE("tessellate: what cannot be divided finely enough, or is not finite, i
     CHECK_THROWS_AS(tessellate({}, 0.01, "none"), InputError);
 }
 
+TEST_CASE("tessellate: patches are joined however far from the origin they are") {
+    const auto offset = [](double x) {
+        return PatchGroup{bezier_patch({{{x, 0, 0}, {x + 1, 0, 0}}, {{x, 1, 0}, {x + 1, 1, 0}}}),
+                          bezier_patch({{{x, 1, 0}, {x + 1, 1, 0}}, {{x, 2, 0}, {x + 1, 2, 0}}})};
+    };
+    for (const double x : {0.0, 1e6, 1e12})
+        CHECK(tessellate({offset(x)}, 0.01, "far").positions.size() == 45);
+    CHECK_THROWS_WITH_AS(tessellate({{bezier_patch({{{0, 0, 0}, {1e300, 0, 0}},  //
+                                                    {{0, 1, 0}, {1, 1, 0}}})}},
+                                    0.01, "wide"),
+                         doctest::Contains("too far"), InputError);
+}
+
+TEST_CASE("tessellate: as many spans as points, and one patch of many that never fits") {
+    Nurbs nurbs;
+    constexpr int kPoints = 100;
+    for (int row = 0; row < kPoints; ++row) {
+        nurbs.points.emplace_back();
+        for (int column = 0; column < kPoints; ++column)
+            nurbs.points.back().emplace_back(column, row, 0, 1);
+    }
+    for (int k = -1; k <= kPoints; ++k) nurbs.knots_u.push_back(std::clamp(k, 0, kPoints - 1));
+    nurbs.knots_v = nurbs.knots_u;
+    nurbs.degree_u = nurbs.degree_v = 1;
+    CHECK(tessellate({nurbs_patches(nurbs)}, 0.01, "spans").triangles.size() == 99 * 99 * 32);
+
+    PatchGroup group(300, bezier_patch({{{0, 0, 0}, {1, 0, 0}}, {{0, 1, 0}, {1, 1, 0}}}));
+    group[7] = superquadric_patches({}).front();
+    CHECK_THROWS_WITH_AS(tessellate({group}, 1e-9, "one of many"), doctest::Contains("chord"),
+                         InputError);
+}
+
 TEST_CASE("our teapot: patches without gaps, and a skeleton with its handle's cycle and two ends") {
     const Mesh mesh = read_mesh(ZSKEL_MODELS "/teapot.bpt");
     CHECK(is_watertight(mesh));

@@ -56,6 +56,14 @@ TEST_CASE("read_skeleton_json: errors name the element") {
                   {ours(node, R"({"source":0,"target":0})"), "to itself"}});
 }
 
+TEST_CASE("read_skeleton_json: values that nest deeper than a stack are refused") {
+    const std::string deep = std::string(200000, '[') + std::string(200000, ']');
+    check_errors(SkeletonFormat::Json,
+                 {{deep, "nest deeper"},
+                  {R"({"nodes":[{"x":0,"y":0,"z":0,"id":)" + deep + "}]}", "nest deeper"},
+                  {R"({"nodes":[],"links":)" + deep + R"(,"edges":)" + deep + "}", "nest deeper"}});
+}
+
 TEST_CASE("read_skeleton_json: node-link data of others") {
     const std::string nodes =
         R"("nodes":[{"id":"a","x":0,"y":0,"z":0},{"id":"b","x":1,"y":0,"z":0}])";

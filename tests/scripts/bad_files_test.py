@@ -300,6 +300,8 @@ def ply_files():
     for cut in (10, len(binary) // 2, len(binary) - 60, len(binary) - 1):
         yield f"cut_at_{cut}.ply", binary[:cut], "error"
     yield "more_behind.ply", binary + b"xyz", "any"
+    many = "".join(f"property uchar p{i}\n" for i in range(300000))
+    yield "many_properties.ply", good.replace("element face", many + "element face"), "error"
 
 
 def stl_files():
@@ -320,6 +322,19 @@ def stl_files():
     yield "zeros.stl", bytes(1000), "error"
 
 
+def surface_files():
+    patch = json.dumps([[(x, y, (x - 1) * (y - 1)) for x in range(3)] for y in range(3)])
+    yield "patch.json", '{"surfaces": [{"type": "bezier", "patches": [%s]}]}' % patch, "warned"
+    yield "not_finite.json", '{"surfaces": [{"type": "bezier", "patches": [%s]}]}' % patch.replace("2", "1e308"), "any"
+    deep = "[" * 200000 + "]" * 200000
+    yield "deep.json", '{"surfaces": %s}' % deep, "error"
+    yield "deep_type.json", '{"surfaces": [{"type": %s}]}' % deep, "error"
+    yield "far_patch.json", '{"surfaces": [{"type": "bezier", "patches": [%s]}]}' % patch.replace("2", "1e-300"), "any"
+    # A spike in each of many patches asks for every step that there may be.
+    spike = "3 3\n" + "".join(f"{c} {r} {1e6 if c == r == 1 else 0}\n" for r in range(4) for c in range(4))
+    yield "spikes.bpt", "400\n" + spike * 399 + spike.replace("1000000.0", "1e12"), "any"
+
+
 def other_files():
     yield "notes.txt", "hello\n", "error"
     yield "no_extension", obj(TETRAHEDRON), "fine"
@@ -328,7 +343,7 @@ def other_files():
 
 
 def made_files():
-    for make in (shapes, obj_files, off_files, ply_files, stl_files, other_files):
+    for make in (shapes, obj_files, off_files, ply_files, stl_files, surface_files, other_files):
         yield from make()
 
 

@@ -42,9 +42,8 @@ struct Arguments {
 };
 
 // The file that a skeleton's JSON names, which lies where that says.
-std::string maps_file_of(const std::string& path) try {
-    const std::string bytes = read_input_file(path, "a skeleton (JSON)");
-    const auto data = nlohmann::json::parse(bytes);
+std::string maps_file_of(const std::string& path) {
+    const nlohmann::json data = parse_json(read_input_file(path, "a skeleton (JSON)"), path);
     const JsonPlace place(data, path);
     if (!place.has("visibility_maps")) {
         throw InputError(fmt::format(
@@ -53,8 +52,6 @@ std::string maps_file_of(const std::string& path) try {
     const JsonPlace maps = place.at("visibility_maps");
     if (!maps.value().is_string()) maps.fail("a file's name");
     return std::filesystem::path(path).parent_path() / maps.value().get<std::string>();
-} catch (const nlohmann::json::exception& error) {
-    throw InputError(fmt::format("{}: no JSON: {}", path, error.what()));
 }
 
 // Ends and junctions, and of the nodes between them every so many.

@@ -9,7 +9,8 @@ namespace zskel {
 /// For maps from the cells of a lattice.
 struct LatticeHash {
     std::size_t operator()(const glm::i64vec3& cell) const {
-        return static_cast<std::size_t>(cell.x * 73856093 ^ cell.y * 19349663 ^ cell.z * 83492791);
+        const glm::u64vec3 c(cell);  // wraps round where signed numbers would overflow
+        return c.x * 73856093 ^ c.y * 19349663 ^ c.z * 83492791;
     }
 };
 

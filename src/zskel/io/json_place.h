@@ -14,6 +14,23 @@
 
 namespace zskel {
 
+/// The value that a text holds.
+/// @throws InputError when it is no JSON, or nests deeper than anything that is read: to write such
+/// a value into a message, or to compare it, would take as deep a stack.
+inline nlohmann::json parse_json(std::string_view bytes, const std::string& name) {
+    constexpr int kDeepest = 100;
+    const auto check_depth = [&](int depth, nlohmann::json::parse_event_t, const nlohmann::json&) {
+        if (depth > kDeepest)
+            throw InputError(fmt::format("{}: values nest deeper than {} levels", name, kDeepest));
+        return true;
+    };
+    try {
+        return nlohmann::json::parse(bytes, check_depth);
+    } catch (const nlohmann::json::exception& error) {
+        throw InputError(fmt::format("{}: no JSON: {}", name, error.what()));
+    }
+}
+
 /// A value and where it stands: "a.json: nodes[3]: radius".
 class JsonPlace {
   public:

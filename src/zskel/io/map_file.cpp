@@ -74,7 +74,7 @@ void append_texels(std::string& out, const std::vector<float>& depths, const Dep
 class MapReader {
   public:
     MapReader(std::string_view bytes, int face_px, const std::string& name)
-        : bytes_(bytes), face_px_(face_px), name_(name) {
+        : bytes_(bytes), name_(name) {
         for (std::size_t t = 0; t < texel_count(static_cast<std::size_t>(face_px)); ++t) {
             lengths_.push_back(
                 static_cast<float>(glm::length(texel_direction(texel_at(t, face_px), face_px))));
@@ -114,7 +114,6 @@ class MapReader {
 
   private:
     std::string_view bytes_;
-    int face_px_;
     const std::string& name_;
     std::vector<float> lengths_;
 };

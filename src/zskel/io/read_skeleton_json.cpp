@@ -15,7 +15,6 @@
 namespace zskel {
 namespace {
 
-using Json = nlohmann::json;
 using Place = JsonPlace;
 
 void read_extras(const Place& entry, SkeletonGraph::Node& node) {
@@ -106,12 +105,10 @@ SkeletonFile read_node_link(const Place& root, const std::string& name) {
 
 }  // namespace
 
-SkeletonFile read_skeleton_json(std::string_view bytes, const std::string& name) try {
-    const Json data = Json::parse(bytes);
+SkeletonFile read_skeleton_json(std::string_view bytes, const std::string& name) {
+    const nlohmann::json data = parse_json(bytes, name);
     const Place root(data, name);
     return root.has("format") ? read_ours(root, name) : read_node_link(root, name);
-} catch (const Json::exception& error) {
-    throw InputError(fmt::format("{}: no JSON: {}", name, error.what()));
 }
 
 }  // namespace zskel

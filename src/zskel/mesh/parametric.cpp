@@ -7,6 +7,7 @@
 #include <array>
 #include <cmath>
 #include <glm/gtc/quaternion.hpp>
+#include <memory>
 #include <numbers>
 #include <unordered_map>
 #include <utility>
@@ -22,8 +23,10 @@ namespace {
 
 constexpr int kLeastSteps = 4;  // fewer would not tell a curve that swings both ways
 constexpr int kMostSteps = 512;
-constexpr double kSamePlace = 1e-9;   // diagonals
-constexpr double kLeastWidth = 1e-9;  // of a triangle, in its length
+constexpr double kSamePlace = 1e-9;     // diagonals
+constexpr double kLeastWidth = 1e-9;    // of a triangle, in its length
+constexpr double kFarthestCell = 1e15;  // of the places that are numbered; all beyond it share one
+constexpr std::size_t kMostCells = 8'000'000;  // of the grids of a group, two triangles each
 
 // De Casteljau's way along one line of points.
 template <typename Point>
@@ -35,11 +38,12 @@ Point bezier_at(std::vector<Point> points, double t) {
     return points.front();
 }
 
-// De Boor's, within a span: knots[span] <= t <= knots[span + 1].
-glm::dvec4 spline_at(const std::vector<glm::dvec4>& points, const std::vector<double>& knots,
-                     std::size_t degree, std::size_t span, double t) {
+// De Boor's, within a span: knots[span] <= t <= knots[span + 1]. `point` gives a control point.
+template <typename Point>
+glm::dvec4 spline_at(Point point, const std::vector<double>& knots, std::size_t degree,
+                     std::size_t span, double t) {
     std::vector<glm::dvec4> near(degree + 1);
-    for (std::size_t i = 0; i <= degree; ++i) near[i] = points[span - degree + i];
+    for (std::size_t i = 0; i <= degree; ++i) near[i] = point(span - degree + i);
     for (std::size_t round = 1; round <= degree; ++round) {
         for (std::size_t i = degree; i >= round; --i) {
             const double from = knots[span - degree + i];
@@ -87,27 +91,20 @@ class PatchGrid {
     const std::vector<DVec3>& places() const { return places_; }
 
     // Along the patch's own edges from the curve, within it from the planes of the triangles.
-    double error() const {
-        double worst = 0.0;
+    bool is_within(double bound) const {
         for (int i = 0; i < steps_; ++i) {
             for (const int side : {0, steps_}) {
-                worst = std::max(
-                    {worst, distance_to_line(place(i + 0.5, side), at(i, side), at(i + 1, side)),
-                     distance_to_line(place(side, i + 0.5), at(side, i), at(side, i + 1))});
+                if (distance_to_line(place(i + 0.5, side), at(i, side), at(i + 1, side)) > bound ||
+                    distance_to_line(place(side, i + 0.5), at(side, i), at(side, i + 1)) > bound)
+                    return false;
             }
         }
         for (int row = 0; row < steps_; ++row) {
             for (int column = 0; column < steps_; ++column) {
-                const auto [lower, upper] = cell(column, row);
-                const Triangle& left = is_rising(column, row) ? upper : lower;
-                const DVec3 middle = place(column + 0.5, row + 0.5);
-                worst = std::max(
-                    {worst, distance_to_plane(place(column + 0.5, row), lower),
-                     distance_to_plane(place(column, row + 0.5), left),
-                     std::min(distance_to_plane(middle, lower), distance_to_plane(middle, upper))});
+                if (cell_error(column, row) > bound) return false;
             }
         }
-        return worst;
+        return true;
     }
 
     // Two a cell, of numbers of places.
@@ -123,6 +120,15 @@ class PatchGrid {
     }
 
   private:
+    double cell_error(int column, int row) const {
+        const auto [lower, upper] = cell(column, row);
+        const Triangle& left = is_rising(column, row) ? upper : lower;
+        const DVec3 middle = place(column + 0.5, row + 0.5);
+        return std::max(
+            {distance_to_plane(place(column + 0.5, row), lower),
+             distance_to_plane(place(column, row + 0.5), left),
+             std::min(distance_to_plane(middle, lower), distance_to_plane(middle, upper))});
+    }
     DVec3 place(double column, double row) const {
         return patch_.at(column / steps_, row / steps_);
     }
@@ -170,10 +176,11 @@ std::vector<PatchGrid> grids_of(const PatchGroup& group, int steps) {
 // Numbers places, those within a distance of each other alike.
 class Snapper {
   public:
-    explicit Snapper(double within) : within_(within) {}
+    Snapper(const DVec3& origin, double within) : origin_(origin), within_(within) {}
 
     std::uint32_t add(const DVec3& place) {
-        const glm::i64vec3 cell(glm::floor(place / (2.0 * within_)));
+        const DVec3 widths = (place - origin_) / (2.0 * within_);
+        const glm::i64vec3 cell(glm::floor(glm::clamp(widths, -kFarthestCell, kFarthestCell)));
         for (std::int64_t i = 0; i < 27; ++i) {
             const glm::i64vec3 beside = cell + glm::i64vec3(i % 3, i / 3 % 3, i / 9) - 1L;
             const auto [first, last] = of_cell_.equal_range(beside);
@@ -189,6 +196,7 @@ class Snapper {
     std::vector<DVec3> take_places() { return std::move(places_); }
 
   private:
+    DVec3 origin_;
     double within_;
     std::vector<DVec3> places_;
     std::unordered_multimap<glm::i64vec3, std::uint32_t, LatticeHash> of_cell_;
@@ -204,20 +212,27 @@ void check_finite(const std::vector<PatchGrid>& grids, const std::string& name) 
     }
 }
 
-// The coarsest grids that keep within the bound.
+// The coarsest grids that keep within the bound. What did not is tried first with the next steps,
+// alone: one patch that never will costs no more than itself.
 std::vector<PatchGrid> fitting_grids(const PatchGroup& group, double bound,
                                      const std::string& name) {
-    for (int steps = kLeastSteps; steps <= kMostSteps; steps += std::max(1, steps / 8)) {
+    std::size_t hardest = 0;
+    int steps = kLeastSteps;
+    for (; steps <= kMostSteps; steps += std::max(1, steps / 8)) {
+        const auto cells = static_cast<std::size_t>(steps) * static_cast<std::size_t>(steps);
+        if (steps > kLeastSteps && cells * group.size() > kMostCells) break;
+        if (!group.empty() && !PatchGrid(group[hardest], steps).is_within(bound)) continue;
         std::vector<PatchGrid> grids = grids_of(group, steps);
         check_finite(grids, name);
-        const bool fits = std::all_of(grids.begin(), grids.end(),
-                                      [&](const PatchGrid& grid) { return grid.error() <= bound; });
-        if (fits) return grids;
+        const auto wide = std::find_if_not(grids.begin(), grids.end(),
+                                           [&](const PatchGrid& g) { return g.is_within(bound); });
+        if (wide == grids.end()) return grids;
+        hardest = static_cast<std::size_t>(wide - grids.begin());
     }
     throw InputError(fmt::format(
-        "{}: a patch needs more than {} steps to come within the chord error asked for; a larger "
+        "{}: a patch needs {} steps or more to come within the chord error asked for; a larger "
         "--chord-error is needed",
-        name, kMostSteps));
+        name, steps));
 }
 
 }  // namespace
@@ -231,25 +246,28 @@ ParametricPatch bezier_patch(std::vector<std::vector<DVec3>> points) {
 }
 
 PatchGroup nurbs_patches(const Nurbs& nurbs) {
-    // Weighted once: sums of them are what is divided by the sums of weights.
+    // Weighted once, and kept once for all spans: sums of them are what is divided by the sums of
+    // weights.
     Nurbs weighted = nurbs;
     for (auto& row : weighted.points) {
         for (glm::dvec4& p : row) p = glm::dvec4(DVec3(p) * p.w, p.w);
     }
+    const auto shared = std::make_shared<const Nurbs>(std::move(weighted));
     PatchGroup out;
     for (const std::size_t span_v : spans_of(nurbs.knots_v, nurbs.degree_v)) {
         for (const std::size_t span_u : spans_of(nurbs.knots_u, nurbs.degree_u)) {
-            out.push_back({[weighted, span_u, span_v](double u, double v) {
-                const auto& [degree_u, degree_v, knots_u, knots_v, points] = weighted;
+            out.push_back({[shared, span_u, span_v](double u, double v) {
+                const auto& [degree_u, degree_v, knots_u, knots_v, points] = *shared;
                 const double at_u = glm::mix(knots_u[span_u], knots_u[span_u + 1], u);
                 const double at_v = glm::mix(knots_v[span_v], knots_v[span_v + 1], v);
-                std::vector<glm::dvec4> column;
-                for (const auto& row : points) {
-                    column.push_back(
-                        spline_at(row, knots_u, static_cast<std::size_t>(degree_u), span_u, at_u));
-                }
+                const auto along_row = [&, &rows = points, &knots = knots_u,
+                                        degree =
+                                            static_cast<std::size_t>(degree_u)](std::size_t row) {
+                    return spline_at([&](std::size_t column) { return rows[row][column]; }, knots,
+                                     degree, span_u, at_u);
+                };
                 const glm::dvec4 sum =
-                    spline_at(column, knots_v, static_cast<std::size_t>(degree_v), span_v, at_v);
+                    spline_at(along_row, knots_v, static_cast<std::size_t>(degree_v), span_v, at_v);
                 return DVec3(sum) / sum.w;
             }});
         }
@@ -286,7 +304,10 @@ Mesh tessellate(const std::vector<PatchGroup>& groups, double chord_error,
             for (const DVec3& p : grid.places()) box.add(p);
         }
     }
-    Snapper snapper(std::max(kSamePlace * box.diagonal(), std::numeric_limits<double>::min()));
+    if (box.low.x <= box.high.x && !std::isfinite(box.diagonal()))
+        throw InputError(fmt::format("{}: the patches reach too far to be measured", name));
+    Snapper snapper(box.low,
+                    std::max(kSamePlace * box.diagonal(), std::numeric_limits<double>::min()));
     MeshBuilder builder(name);
     for (const PatchGroup& group : groups) {
         for (const PatchGrid& grid : fitting_grids(group, chord_error * box.diagonal(), name)) {

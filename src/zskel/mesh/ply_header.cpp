@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <unordered_set>
 
 #include "zskel/core/types.h"
 
@@ -62,16 +63,15 @@ std::string_view read_name(TextCursor& text, std::string_view what) {
     return name;
 }
 
-template <typename Named>
-void refuse_second(const TextCursor& text, const std::vector<Named>& earlier, std::string_view name,
+using Names = std::unordered_set<std::string_view>;
+
+void refuse_second(const TextCursor& text, Names& earlier, std::string_view name,
                    std::string_view what) {
-    if (std::any_of(earlier.begin(), earlier.end(),
-                    [&](const Named& e) { return e.name == name; })) {
+    if (!earlier.insert(name).second)
         text.fail(fmt::format("{} {} is declared twice", what, quoted(name)));
-    }
 }
 
-PlyElement read_element(TextCursor& text, const std::vector<PlyElement>& earlier) {
+PlyElement read_element(TextCursor& text, Names& earlier) {
     PlyElement element;
     element.name = read_name(text, "element");
     refuse_second(text, earlier, element.name, "element");
@@ -84,7 +84,7 @@ PlyElement read_element(TextCursor& text, const std::vector<PlyElement>& earlier
     return element;
 }
 
-PlyProperty read_property(TextCursor& text, const PlyElement& element) {
+PlyProperty read_property(TextCursor& text, const PlyElement& element, Names& earlier) {
     PlyProperty property;
     if (text.peek_word() == "list") {
         text.word();
@@ -96,7 +96,7 @@ PlyProperty read_property(TextCursor& text, const PlyElement& element) {
     }
     property.type = read_type(text);
     property.name = read_name(text, "property");
-    refuse_second(text, element.properties, property.name, "property");
+    refuse_second(text, earlier, property.name, "property");
     property.label =
         fmt::format("property {} of element {}", quoted(property.name), quoted(element.name));
     return property;
@@ -140,6 +140,8 @@ PlyHeader read_ply_header(TextCursor& text, std::string_view bytes) {
     if (magic != "ply") text.fail(fmt::format("{} begins the file; expected ply", quoted(magic)));
     text.end_line("ply");
     PlyHeader header;
+    Names elements;
+    Names properties;  // of the last element
     bool has_format = false;
     while (text.to_content()) {
         const std::string_view keyword = text.word();
@@ -158,11 +160,12 @@ PlyHeader read_ply_header(TextCursor& text, std::string_view bytes) {
             has_format = true;
             header.encoding = read_encoding(text);
         } else if (keyword == "element") {
-            header.elements.push_back(read_element(text, header.elements));
+            header.elements.push_back(read_element(text, elements));
+            properties = {};  // clear() would keep, and sweep, the places of the most there were
         } else if (keyword == "property") {
             if (header.elements.empty()) text.fail("a property before the first element");
             PlyElement& element = header.elements.back();
-            element.properties.push_back(read_property(text, element));
+            element.properties.push_back(read_property(text, element, properties));
         } else {
             text.fail(
                 fmt::format("{} in the header; expected format, comment, element, property or "

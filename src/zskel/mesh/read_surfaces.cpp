@@ -135,15 +135,13 @@ PatchGroup read_surface(const JsonPlace& entry) {
 
 }  // namespace
 
-Mesh read_surfaces(std::string_view bytes, std::string_view name, double chord_error) try {
-    const auto data = nlohmann::json::parse(bytes);
+Mesh read_surfaces(std::string_view bytes, std::string_view name, double chord_error) {
+    const nlohmann::json data = parse_json(bytes, std::string(name));
     const JsonPlace surfaces = JsonPlace(data, std::string(name)).at("surfaces");
     std::vector<PatchGroup> groups;
     for (std::size_t i = 0; i < surfaces.array_size(); ++i)
         groups.push_back(read_surface(surfaces.at(i)));
     return tessellate(groups, chord_error, std::string(name));
-} catch (const nlohmann::json::exception& error) {
-    throw InputError(fmt::format("{}: no JSON: {}", name, error.what()));
 }
 
 }  // namespace zskel

@@ -107,15 +107,13 @@ Move read_move(const JsonPlace& entry, const Armature& armature) {
 
 }  // namespace
 
-Pose read_pose(std::string_view bytes, const std::string& name, const Armature& armature) try {
-    const auto data = nlohmann::json::parse(bytes);
+Pose read_pose(std::string_view bytes, const std::string& name, const Armature& armature) {
+    const nlohmann::json data = parse_json(bytes, name);
     const JsonPlace moves = JsonPlace(data, name).at("moves");
     Pose pose;
     for (std::size_t i = 0; i < moves.array_size(); ++i)
         pose.push_back(read_move(moves.at(i), armature));
     return pose;
-} catch (const nlohmann::json::exception& error) {
-    throw InputError(fmt::format("{}: no JSON: {}", name, error.what()));
 }
 
 double duration(const Pose& pose) {
