@@ -191,7 +191,7 @@ TEST_CASE("caps: a rim of many vertices is filled in parts; a sheet is left open
     const PreparedSurface flat = prepared(only_top);
     CHECK(flat.openings.empty());
     CHECK_FALSE(all_closed(flat));
-    CHECK(count_of(flat.repairs, "sheets too thin") == 1);
+    CHECK(count_of(flat.repairs, "sheets left open") == 1);
 }
 
 TEST_CASE("caps: an open tube has its whole axis, its ends marked, with the wall's radius") {
@@ -227,7 +227,7 @@ TEST_CASE("look_out: a bowl sees more of the outside from its outer side") {
     const WeldedMesh welded = weld_equal(bowl, repairs);
     const std::vector<std::uint32_t> group(welded.triangles.size(), 0);
     const Outlook view = look_out(welded, group, 1)[0];
-    CHECK(view.front == doctest::Approx(1.0));
+    CHECK(view.front > 0.99);
     CHECK(view.back < 0.5);
 }
 

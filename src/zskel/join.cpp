@@ -19,6 +19,7 @@ namespace {
 
 constexpr double kVoxels = 160.0;  // along the longest side, unless said otherwise
 constexpr double kMostVoxels = 2048.0;
+constexpr double kLeastDepth = 1e-3;  // voxels
 constexpr auto kPlaces = static_cast<std::size_t>(kLevelSetBlock * kLevelSetBlock * kLevelSetBlock);
 
 class Sampler {
@@ -88,7 +89,9 @@ class Sampler {
             const bool is_known = all_closed_ && step.z > 0 && last > side_;
             if (!is_known) is_inside = winding_.at(p) > 0.5;
             last = distance;
-            block.values.push_back(static_cast<float>(is_inside ? -distance : distance));
+            // On a surface between two parts too: 0 would count as outside.
+            const double depth = std::max(distance, kLeastDepth * side_);
+            block.values.push_back(static_cast<float>(is_inside ? -depth : distance));
         }
         return block;
     }

@@ -29,6 +29,8 @@ refused() {
     (($(wc -l <err) == 1)) || fail "standard error is not one line"
     grep -qF -- "$piece" err || fail "the message lacks: $piece"
 }
+# holds PATTERN [FILE]: in what was printed, or in a file.
+holds() { grep -qE -- "$1" "${2:-out}" || fail "${2:-the output} lacks: $1"; }
 is_json() { /usr/bin/python3 -c 'import json, sys; json.load(open(sys.argv[1]))' "$1"; }
 is_png() {
     local begin
@@ -246,6 +248,33 @@ case_limits() {
     done
     ((code == 0)) || fail "400 megabytes are not enough"
     only_files . cube.obj out err
+}
+
+case_repair() {
+    # A cube without its last face's two triangles, and two boxes that overlap.
+    head -n -2 cube.obj >open.obj
+    run 0 repair cube.obj -o clean.ply
+    holds 'nothing to repair'
+    run 0 repair open.obj -o open.ply
+    holds 'openings closed with caps, which are in no output: 1'
+    run 0 check --json open.ply
+    holds '"is_closed": ?false'
+    run 0 repair open.obj --caps -o closed.obj
+    run 0 check --json closed.obj
+    holds '"is_closed": ?true'
+    refused 3 'needs repairs, and none are allowed: openings closed' extract open.obj --no-repair -o a.json
+    run 0 extract open.obj --no-caps -o a.json --backend ray
+    run 0 extract open.obj -o b.json --backend ray
+    holds '"open_end": ?true' b.json
+    awk '/^v/ {print; n++; shifted = shifted sprintf("v %f %f %f\n", $2 + 0.5, $3 + 0.3, $4 + 0.2)}
+         /^f/ {print; more = more sprintf("f %d %d %d\n", $2 + 8, $3 + 8, $4 + 8)}
+         END {printf "%s%s", shifted, more}' cube.obj >two.obj
+    run 0 repair two.obj --join --join-voxel 0.05 -o one.ply
+    holds 'parts joined by their winding number'
+    run 0 check --json one.ply
+    holds '"genus": ?0'
+    refused 2 '--join-voxel' repair two.obj --join-voxel 0.05 -o c.ply
+    only_files . cube.obj open.obj two.obj clean.ply open.ply closed.obj one.ply a.json b.json out err
 }
 
 case_surfaces() {
