@@ -20,7 +20,7 @@ namespace {
 constexpr double kVoxels = 160.0;  // along the longest side, unless said otherwise
 constexpr double kMostVoxels = 2048.0;
 constexpr double kLeastDepth = 1e-3;  // voxels
-constexpr auto kPlaces = static_cast<std::size_t>(kLevelSetBlock * kLevelSetBlock * kLevelSetBlock);
+constexpr int kPlaces = kLevelSetBlock * kLevelSetBlock * kLevelSetBlock;
 
 class Sampler {
   public:
@@ -78,10 +78,10 @@ class Sampler {
 
     LevelSetBlock sample_block(const glm::ivec3& at) const {
         LevelSetBlock block{at, {}};
-        block.values.reserve(kPlaces);
+        block.values.reserve(static_cast<std::size_t>(kPlaces));
         bool is_inside = false;
         double last = 0.0;  // distance at the place before, along z
-        for (int i = 0; i < static_cast<int>(kPlaces); ++i) {
+        for (int i = 0; i < kPlaces; ++i) {
             const glm::ivec3 step(i / 64, i / 8 % 8, i % 8);
             const DVec3 p = place(DVec3(at * kLevelSetBlock + step));
             const auto distance = static_cast<double>(query_.nearest(Vec3(p)).distance);

@@ -21,6 +21,7 @@ NAMES = ["horse", "octopus", "hand", "y", "torus", "cobra"]
 DISTANCE = 0.01  # of the diagonal: mean distance to the clean model's skeleton
 SHARE = 0.95
 SECONDS = 120
+PEER_SECONDS = 10
 
 
 def read_obj(path):
@@ -225,12 +226,13 @@ def extract(program, path, out):
 
 def cgal(program, path, out):
     try:
-        done = subprocess.run([program, path, out], capture_output=True, timeout=SECONDS)
+        done = subprocess.run([program, "-q", "extract", path, "-o", out], capture_output=True, timeout=PEER_SECONDS)
     except subprocess.TimeoutExpired:
         return None
     if done.returncode != 0 or not os.path.exists(out):
         return None
-    return skeleton_of(json.load(open(out)))
+    document = json.load(open(out))
+    return np.array(document["nodes"], dtype=float).reshape(-1, 3), document["edges"]
 
 
 def main():

@@ -182,13 +182,15 @@ class MeshChecker {
             const std::uint32_t vertex = topology_.boundary_loops[0][0];
             note("boundary_loops", report_.boundary_loops,
                  fmt::format("loop at vertex {}", welded_.vertex_of_place[vertex]),
-                 "closed with caps, which are seen and repel and are in no output; sheets and what no cap "
+                 "closed with caps, which are seen and repel and are in no output; sheets and what "
+                 "no cap "
                  "fits stay open, with a warning");
         }
         if (report_.non_manifold_edges > 0) {
             note("non_manifold_edges", report_.non_manifold_edges,
                  edge_name(topology_.non_manifold_edges[0]),
-                 "fins and walls inside are left out, the rest is parted in pairs; what cannot be is kept, "
+                 "fins and walls inside are left out, the rest is parted in pairs; what cannot be "
+                 "is kept, "
                  "with a warning");
         }
         if (report_.non_manifold_vertices > 0) {

@@ -197,8 +197,10 @@ std::size_t part_pairs(WeldedMesh& mesh) {
         std::uint32_t& own = of_fan[fans.find(corner)];
         if (own == kNone && is_taken[place]) {
             own = static_cast<std::uint32_t>(mesh.positions.size());
-            mesh.positions.push_back(DVec3(mesh.positions[place]));
-            mesh.vertex.push_back(std::uint32_t(mesh.vertex[place]));
+            const DVec3 there = mesh.positions[place];
+            mesh.positions.push_back(there);
+            const std::uint32_t vertex = mesh.vertex[place];
+            mesh.vertex.push_back(vertex);
         } else if (own == kNone) {
             own = place;
             is_taken[place] = true;

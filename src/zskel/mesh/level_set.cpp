@@ -39,7 +39,8 @@ class Mesher {
 
   private:
     static std::size_t corner_in(const glm::ivec3& p) {
-        return static_cast<std::size_t>((p.x * kAcross + p.y) * kAcross + p.z);
+        const int corner = (p.x * kAcross + p.y) * kAcross + p.z;
+        return static_cast<std::size_t>(corner);
     }
 
     // The values at the corners of a block's cells, of the blocks after it too; false when the sign
