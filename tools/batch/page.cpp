@@ -4,6 +4,8 @@
 
 #include <algorithm>
 
+#include "zskel/io/markup.h"
+
 namespace zskel::batch {
 namespace {
 
@@ -22,35 +24,13 @@ p.none { color: #667; }
 </style></head><body><h1>zskel batch</h1>
 )";
 
-std::string escaped(const std::string& text) {
-    std::string out;
-    for (const char c : text) {
-        switch (c) {
-            case '&':
-                out += "&amp;";
-                break;
-            case '<':
-                out += "&lt;";
-                break;
-            case '>':
-                out += "&gt;";
-                break;
-            case '"':
-                out += "&quot;";
-                break;
-            default:
-                out += c;
-        }
-    }
-    return out;
-}
-
 std::string remarks(const Record& record) {
     if (record.status == Status::Failed)
-        return fmt::format("<b>{}</b>: {}", escaped(record.reason), escaped(record.text));
+        return fmt::format("<b>{}</b>: {}", escaped_markup(record.reason),
+                           escaped_markup(record.text));
     std::string text;
     for (const std::string& warning : record.warnings)
-        text += (text.empty() ? "" : "<br>") + escaped(warning);
+        text += (text.empty() ? "" : "<br>") + escaped_markup(warning);
     return text;
 }
 
@@ -63,8 +43,8 @@ std::string row(const Record& record) {
     return fmt::format(
         "<tr class=\"{0}\"><td>{0}</td><td>{1}</td><td>{2}</td><td>{3}</td><td "
         "class=\"number\">{4:.3f}</td><td class=\"number\">{5}</td><td>{6}</td></tr>\n",
-        name_of(record.status), thumbnail(record), escaped(record.model), remarks(record),
-        record.seconds, record.peak_memory_kib / 1024, escaped(record.output));
+        name_of(record.status), thumbnail(record), escaped_markup(record.model), remarks(record),
+        record.seconds, record.peak_memory_kib / 1024, escaped_markup(record.output));
 }
 
 // Why pictures are missing, of the first that could not be drawn.
@@ -74,7 +54,7 @@ std::string picture_note(const std::vector<const Record*>& records) {
     });
     if (none == records.end()) return "";
     return fmt::format("<p class=\"none\">Pictures are missing: {}</p>\n",
-                       escaped((*none)->no_thumbnail));
+                       escaped_markup((*none)->no_thumbnail));
 }
 
 int rank(Status status) {
@@ -93,7 +73,8 @@ std::string report_page(const std::vector<Item>& items, const Journal& journal,
         return rank(a->status) < rank(b->status);
     });
     std::string page = kHead;
-    page += fmt::format("<pre>{}</pre>\n{}", escaped(summary_text(tally)), picture_note(records));
+    page += fmt::format("<pre>{}</pre>\n{}", escaped_markup(summary_text(tally)),
+                        picture_note(records));
     page +=
         "<table><tr><th>status</th><th></th><th>model</th><th>remarks</th><th>seconds</th>"
         "<th>MiB</th><th>output</th></tr>\n";

@@ -7,34 +7,12 @@
 
 #include "scoring/base64.h"
 #include "scoring/page_parts.h"
+#include "zskel/io/markup.h"
 
 namespace zskel::scoring {
 namespace {
 
 constexpr std::size_t kTinted = 3;  // of the worst values of a column
-
-std::string escaped(const std::string& text) {
-    std::string out;
-    for (const char c : text) {
-        switch (c) {
-            case '&':
-                out += "&amp;";
-                break;
-            case '<':
-                out += "&lt;";
-                break;
-            case '>':
-                out += "&gt;";
-                break;
-            case '"':
-                out += "&quot;";
-                break;
-            default:
-                out += c;
-        }
-    }
-    return out;
-}
 
 // The values of a column that are tinted, the worst first: worse than the median, and worst.
 std::vector<double> worst_of(const Column& column, const std::vector<Row>& rows) {
@@ -64,7 +42,7 @@ std::string heading() {
     for (std::size_t i = 0; i < columns().size(); ++i) {
         const Column& column = columns()[i];
         titles += fmt::format("<th{} title=\"{}\">{}</th>", is_first(i) ? " class=\"first\"" : "",
-                              escaped(column.legend), column.title);
+                              escaped_markup(column.legend), column.title);
         if (!is_first(i)) continue;
         const auto width = std::count_if(columns().begin(), columns().end(),
                                          [&](const Column& c) { return c.group == column.group; });
@@ -84,7 +62,7 @@ std::string classes(std::size_t i, std::optional<double> value, const std::vecto
 }
 
 std::string name_cell(const Row& row) {
-    const std::string name = escaped(row.name);
+    const std::string name = escaped_markup(row.name);
     return fmt::format("<td data-v=\"{0}\"><a href=\"#{0}\">{0}</a></td>", name);
 }
 
@@ -92,7 +70,7 @@ std::string table_row(const Row& row, const std::vector<std::vector<double>>& wo
     std::string cells = name_cell(row);
     if (!row.score) {
         return fmt::format("<tr>{}<td class=\"failure\" colspan=\"{}\">failed: {}</td></tr>\n",
-                           cells, columns().size(), escaped(row.failure));
+                           cells, columns().size(), escaped_markup(row.failure));
     }
     for (std::size_t i = 0; i < columns().size(); ++i) {
         const Column& column = columns()[i];
@@ -148,7 +126,7 @@ std::string counted(const std::vector<std::string>& names) {
     for (const std::string& name : names) ++counts[name];
     std::vector<std::string> parts;
     for (const auto& [name, count] : counts)
-        parts.push_back(escaped(name) + (count > 1 ? fmt::format(" ({})", count) : ""));
+        parts.push_back(escaped_markup(name) + (count > 1 ? fmt::format(" ({})", count) : ""));
     return fmt::format("{}", fmt::join(parts, ", "));
 }
 
@@ -167,14 +145,14 @@ std::string limbs_text(const Score& score) {
 }
 
 std::string card(const Row& row) {
-    const std::string name = escaped(row.name);
+    const std::string name = escaped_markup(row.name);
     const std::string image =
         row.picture.empty() ? ""
                             : fmt::format("<img alt=\"{}\" src=\"data:image/png;base64,{}\">\n",
                                           name, base64(row.picture));
     const std::string text =
         row.score ? limbs_text(*row.score)
-                  : fmt::format("<p class=\"wrong\">failed: {}</p>", escaped(row.failure));
+                  : fmt::format("<p class=\"wrong\">failed: {}</p>", escaped_markup(row.failure));
     return fmt::format("<div class=\"card\" id=\"{0}\">\n{1}<div><b>{0}</b>{2}</div></div>\n", name,
                        image, text);
 }
@@ -184,7 +162,7 @@ std::string legend() {
     for (std::size_t i = 0; i < columns().size(); ++i) {
         const Column& column = columns()[i];
         out += fmt::format("<section><dt>{}: {}</dt><dd>{}</dd></section>\n", column.group,
-                           column.title, escaped(column.legend));
+                           column.title, escaped_markup(column.legend));
     }
     return fmt::format("<h2>What the measures say</h2>\n<dl>\n{}</dl>\n", out);
 }
@@ -202,17 +180,17 @@ std::string page_html(const std::vector<Row>& rows, const std::string& subtitle,
     std::string cards;
     for (const Row& row : rows) cards += card(row);
     const std::string missing =
-        no_picture.empty()
-            ? ""
-            : fmt::format("<p class=\"note\">There are no pictures: {}</p>\n", escaped(no_picture));
+        no_picture.empty() ? ""
+                           : fmt::format("<p class=\"note\">There are no pictures: {}</p>\n",
+                                         escaped_markup(no_picture));
     return fmt::format(
         "<!DOCTYPE html>\n<html lang=\"en\"><head><meta charset=\"utf-8\">"
         "<title>Skeleton scores</title>\n<style>{}</style></head>\n<body>\n"
         "<h1>Skeleton scores</h1>\n<p class=\"sub\"><code>{}</code></p>\n{}{}{}"
         "<h2>The models</h2>\n{}<div class=\"cards\">\n{}</div>\n{}<script>{}</script>\n"
         "</body></html>\n",
-        kPageStyle, escaped(subtitle), tiles(rows), table(rows), kNote, missing, cards, legend(),
-        kPageScript);
+        kPageStyle, escaped_markup(subtitle), tiles(rows), table(rows), kNote, missing, cards,
+        legend(), kPageScript);
 }
 
 }  // namespace zskel::scoring

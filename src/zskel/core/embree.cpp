@@ -17,6 +17,26 @@ EmbreeDevice open_embree() {
                 fmt::format("Embree gives no device (error {})", static_cast<int>(error)));
 }
 
+RTCRay embree_ray(const Vec3& from, const Vec3& along, float farthest) {
+    RTCRay ray{};
+    ray.org_x = from.x;
+    ray.org_y = from.y;
+    ray.org_z = from.z;
+    ray.dir_x = along.x;
+    ray.dir_y = along.y;
+    ray.dir_z = along.z;
+    ray.tfar = farthest;
+    ray.mask = 0xFFFFFFFFu;
+    return ray;
+}
+
+bool meets_nothing(RTCScene scene, RTCRay ray) {
+    RTCIntersectContext context;
+    rtcInitIntersectContext(&context);
+    rtcOccluded1(scene, &context, &ray);
+    return ray.tfar >= 0.0f;  // Embree's sign of a hit is -inf
+}
+
 void build_hierarchy(RTCScene scene, RTCDevice device) {
     rtcCommitScene(scene);
     if (rtcGetDeviceError(device) == RTC_ERROR_OUT_OF_MEMORY) throw std::bad_alloc();

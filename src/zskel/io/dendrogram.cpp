@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "zskel/core/error.h"
+#include "zskel/io/markup.h"
 
 namespace zskel {
 namespace {
@@ -66,20 +67,6 @@ std::vector<Group> linked(std::vector<std::vector<double>> distances) {
     return groups;
 }
 
-std::string escaped(const std::string& text) {
-    std::string out;
-    for (const char c : text) {
-        if (c == '&') {
-            out += "&amp;";
-        } else if (c == '<') {
-            out += "&lt;";
-        } else {
-            out += static_cast<unsigned char>(c) < 0x20 ? '?' : c;
-        }
-    }
-    return out;
-}
-
 }  // namespace
 
 std::string dendrogram_svg(const std::vector<std::string>& names,
@@ -107,7 +94,7 @@ std::string dendrogram_svg(const std::vector<std::string>& names,
         x[leaf] = kMargin + kTree;
         y[leaf] = kMargin + kRow * (static_cast<double>(row) + 0.5);
         out += fmt::format("<text x=\"{:.1f}\" y=\"{:.1f}\">{}</text>\n", x[leaf] + 6.0,
-                           y[leaf] + 4.0, escaped(names[leaf]));
+                           y[leaf] + 4.0, escaped_markup(names[leaf]));
     }
     out += "</g>\n<g fill=\"none\" stroke=\"#345\">\n";
     for (std::size_t g = names.size(); g < groups.size(); ++g) {

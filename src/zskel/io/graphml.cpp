@@ -9,26 +9,11 @@
 
 #include "zskel/core/error.h"
 #include "zskel/io/format_io.h"
+#include "zskel/io/markup.h"
 #include "zskel/mesh/text_cursor.h"
 
 namespace zskel {
 namespace {
-
-std::string escaped(std::string_view text) {
-    std::string out;
-    for (const char c : text) {
-        if (c == '&') {
-            out += "&amp;";
-        } else if (c == '<') {
-            out += "&lt;";
-        } else if (c == '>') {
-            out += "&gt;";
-        } else {
-            out += c;
-        }
-    }
-    return out;
-}
 
 constexpr std::string_view kHead =
     R"(<?xml version="1.0" encoding="UTF-8"?>
@@ -136,7 +121,7 @@ class GraphmlReader {
 std::string write_graphml(const SkeletonGraph& graph, const std::string& origin) {
     std::string text(kHead);
     text += fmt::format("<graph edgedefault=\"undirected\">\n<data key=\"origin\">{}</data>\n",
-                        escaped(origin));
+                        escaped_markup(origin));
     for (std::size_t i = 0; i < graph.nodes.size(); ++i) {
         const SkeletonGraph::Node& node = graph.nodes[i];
         text += fmt::format(

@@ -15,6 +15,7 @@
 #include "page_sources.h"
 #include "zskel/core/error.h"
 #include "zskel/io/little_endian.h"
+#include "zskel/io/markup.h"
 #include "zskel/io/packing.h"
 #ifdef ZSKEL_HAS_THREE
 #include "three_sources.h"
@@ -45,26 +46,6 @@ std::string fill(std::string_view text, const std::map<std::string_view, std::st
         const auto found = values.find(text.substr(1, end == std::string_view::npos ? 0 : end - 1));
         out += found == values.end() ? "@" : found->second;
         text.remove_prefix(found == values.end() ? 1 : end + 1);
-    }
-    return out;
-}
-
-std::string escaped_html(const std::string& text) {
-    std::string out;
-    for (const char c : text) {
-        switch (c) {
-            case '&':
-                out += "&amp;";
-                break;
-            case '<':
-                out += "&lt;";
-                break;
-            case '>':
-                out += "&gt;";
-                break;
-            default:
-                out += c;
-        }
     }
     return out;
 }
@@ -135,13 +116,14 @@ std::string html_report(const ExtractResult& result, const Provenance& provenanc
                                      maps.nodes.size(), result.graph.nodes.size()));
     }
     const std::string name = std::filesystem::path(provenance.model).filename().string();
-    return fill(page::kPageHtml, {{"TITLE", escaped_html(fmt::format("The skeleton of {}", name))},
-                                  {"CSS", std::string(page::kPageCss)},
-                                  {"THREE", base64(kThree)},
-                                  {"ORBIT", base64(kOrbit)},
-                                  {"SCRIPT", std::string(page::kPageJs)},
-                                  {"SKELETON", escaped_json(skeleton_json(result, provenance, {}))},
-                                  {"SCENE", scene_json(result.surface, maps)}});
+    return fill(page::kPageHtml,
+                {{"TITLE", escaped_markup(fmt::format("The skeleton of {}", name))},
+                 {"CSS", std::string(page::kPageCss)},
+                 {"THREE", base64(kThree)},
+                 {"ORBIT", base64(kOrbit)},
+                 {"SCRIPT", std::string(page::kPageJs)},
+                 {"SKELETON", escaped_json(skeleton_json(result, provenance, {}))},
+                 {"SCENE", scene_json(result.surface, maps)}});
 }
 
 }  // namespace zskel

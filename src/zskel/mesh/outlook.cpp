@@ -83,24 +83,11 @@ class Looker {
         const Vec3 from = (at(t, 0) + at(t, 1) + at(t, 2)) / 3.0f + kOffset * normal;
         int free = 0;
         for (const Vec3& d : directions_)
-            free += leaves(from, d.x * u + d.y * v + d.z * normal) ? 1 : 0;
+            free += meets_nothing(scene_.get(),
+                                  embree_ray(from, d.x * u + d.y * v + d.z * normal, kInfinity))
+                        ? 1
+                        : 0;
         return static_cast<double>(free) / kRays;
-    }
-
-    bool leaves(const Vec3& from, const Vec3& direction) const {
-        RTCIntersectContext context;
-        rtcInitIntersectContext(&context);
-        RTCRay ray{};
-        ray.org_x = from.x;
-        ray.org_y = from.y;
-        ray.org_z = from.z;
-        ray.dir_x = direction.x;
-        ray.dir_y = direction.y;
-        ray.dir_z = direction.z;
-        ray.tfar = kInfinity;
-        ray.mask = 0xFFFFFFFFu;
-        rtcOccluded1(scene_.get(), &context, &ray);
-        return ray.tfar >= 0.0f;  // Embree's sign of a hit is -inf
     }
 
     const WeldedMesh& mesh_;

@@ -67,21 +67,6 @@ bool visit_triangle(RTCPointQueryFunctionArguments* arguments) {
     return true;
 }
 
-// Whose parameter runs from 0 to 1.
-RTCRay segment(const Vec3& from, const Vec3& to) {
-    RTCRay ray{};
-    const Vec3 along = to - from;
-    ray.org_x = from.x;
-    ray.org_y = from.y;
-    ray.org_z = from.z;
-    ray.dir_x = along.x;
-    ray.dir_y = along.y;
-    ray.dir_z = along.z;
-    ray.tfar = 1.0f;
-    ray.mask = 0xFFFFFFFFu;
-    return ray;
-}
-
 }  // namespace
 
 struct SurfaceQuery::Impl {
@@ -105,7 +90,7 @@ SurfaceQuery::Nearest SurfaceQuery::nearest(const Vec3& point) const {
 std::optional<SurfaceQuery::Hit> SurfaceQuery::first_hit(const Vec3& from, const Vec3& to) const {
     RTCIntersectContext context;
     rtcInitIntersectContext(&context);
-    RTCRayHit ray{segment(from, to), {}};
+    RTCRayHit ray{embree_ray(from, to - from, 1.0f), {}};
     ray.hit.geomID = RTC_INVALID_GEOMETRY_ID;
     rtcIntersect1(impl_->scene.get(), &context, &ray);
     if (ray.hit.geomID == RTC_INVALID_GEOMETRY_ID) return std::nullopt;
@@ -113,11 +98,7 @@ std::optional<SurfaceQuery::Hit> SurfaceQuery::first_hit(const Vec3& from, const
 }
 
 bool SurfaceQuery::sees(const Vec3& from, const Vec3& to) const {
-    RTCIntersectContext context;
-    rtcInitIntersectContext(&context);
-    RTCRay ray = segment(from, to);
-    rtcOccluded1(impl_->scene.get(), &context, &ray);
-    return ray.tfar >= 0.0f;  // Embree's sign of a hit is -inf
+    return meets_nothing(impl_->scene.get(), embree_ray(from, to - from, 1.0f));
 }
 
 float SurfaceQuery::free_way(const Vec3& from, const Vec3& direction, float farthest) const {
