@@ -175,7 +175,7 @@ TEST_CASE("check_mesh: an open cube has a boundary loop, no volume, and a warnin
     CHECK_FALSE(report.volume.has_value());
     CHECK(report.genus == 0);
     check_defect(report, "boundary_loops", 1, "loop at vertex 0");
-    CHECK(test::contains(find_defect(report, "boundary_loops")->action, "hit_fraction"));
+    CHECK(test::contains(find_defect(report, "boundary_loops")->action, "closed with caps"));
 }
 
 TEST_CASE("check_mesh: turned faces and inside-out components") {
@@ -256,7 +256,7 @@ TEST_CASE("to_text: says what there is and what extraction does about it") {
     Mesh mesh = cube();
     mesh.triangles.resize(10);
     CHECK(test::contains(to_text(check_mesh(mesh)),
-                         "boundary loops: 1, first loop at vertex 0; kept"));
+                         "boundary loops: 1, first loop at vertex 0; closed with caps"));
 }
 
 }  // namespace

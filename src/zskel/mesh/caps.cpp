@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "zskel/core/disjoint_sets.h"
+#include "zskel/mesh/orient.h"
 #include "zskel/mesh/sides.h"
 
 namespace zskel {

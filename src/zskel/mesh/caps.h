@@ -2,10 +2,11 @@
 
 #include <vector>
 
-#include "zskel/mesh/orient.h"
 #include "zskel/mesh/welded_mesh.h"
 
 namespace zskel {
+
+struct Orientation;
 
 /// A boundary loop that was closed.
 struct Opening {
