@@ -2,7 +2,6 @@
 #include "zskel/visibility/cpu_source.h"
 
 #include <doctest/doctest.h>
-#include <hwy/highway.h>
 
 #include <algorithm>
 #include <cmath>
@@ -12,6 +11,7 @@
 #include "support/records.h"
 #include "support/shapes.h"
 #include "zskel/compare.h"
+#include "zskel/core/instruction_set.h"
 #include "zskel/core/parallel.h"
 #include "zskel/visibility/cube_map.h"
 #include "zskel/visibility/ray_source.h"
@@ -20,16 +20,9 @@ using namespace zskel;
 
 namespace {
 
-void force_instruction_set(std::int64_t target) {
-    hwy::SetSupportedTargetsForTest(target);
-    hwy::GetChosenTarget().Update(hwy::SupportedTargets());
-}
-
 // Runs `body` once with each instruction set.
 void for_each_instruction_set(const std::function<void()>& body) {
-    const auto targets = hwy::SupportedAndGeneratedTargets();
-    REQUIRE(!targets.empty());
-    for (const std::int64_t target : targets) {
+    for (const std::int64_t target : usable_instruction_sets()) {
         CAPTURE(hwy::TargetName(target));
         force_instruction_set(target);
         CHECK(cpu_instruction_set() == hwy::TargetName(target));

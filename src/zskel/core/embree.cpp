@@ -39,7 +39,12 @@ bool meets_nothing(RTCScene scene, RTCRay ray) {
 
 void build_hierarchy(RTCScene scene, RTCDevice device) {
     rtcCommitScene(scene);
-    if (rtcGetDeviceError(device) == RTC_ERROR_OUT_OF_MEMORY) throw std::bad_alloc();
+    const RTCError error = rtcGetDeviceError(device);
+    if (error == RTC_ERROR_OUT_OF_MEMORY) throw std::bad_alloc();
+    if (error != RTC_ERROR_NONE) {
+        throw Error(ExitCode::Backend,
+                    fmt::format("Embree builds no hierarchy (error {})", static_cast<int>(error)));
+    }
 }
 
 }  // namespace zskel

@@ -24,7 +24,8 @@ bool meets_nothing(RTCScene scene, RTCRay ray);
 /// @throws std::bad_alloc; Error with ExitCode::Backend for any other reason.
 EmbreeDevice open_embree();
 
-/// Builds the hierarchy over what is attached. @throws std::bad_alloc.
+/// Builds the hierarchy over what is attached. @throws std::bad_alloc; Error with
+/// ExitCode::Backend.
 void build_hierarchy(RTCScene scene, RTCDevice device);
 
 }  // namespace zskel

@@ -5,6 +5,9 @@
 #include <tbb/parallel_for.h>
 
 #include <memory>
+#include <new>
+#include <stdexcept>
+#include <string_view>
 
 #if defined(__SANITIZE_THREAD__)
 extern "C" void __tsan_acquire(void* place);
@@ -48,12 +51,18 @@ void parallel_for(std::size_t count, std::size_t grain,
                   const std::function<void(std::size_t, std::size_t)>& body) {
     if (count == 0) return;
     LoopOrder order;
-    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, count, grain),
-                      [&](const tbb::blocked_range<std::size_t>& range) {
-                          order.begin_body();
-                          body(range.begin(), range.end());
-                          order.end_body();
-                      });
+    try {
+        tbb::parallel_for(tbb::blocked_range<std::size_t>(0, count, grain),
+                          [&](const tbb::blocked_range<std::size_t>& range) {
+                              order.begin_body();
+                              body(range.begin(), range.end());
+                              order.end_body();
+                          });
+    } catch (const std::runtime_error& error) {
+        // TBB has no type of its own for a thread whose stack there is no memory for.
+        if (std::string_view(error.what()).starts_with("pthread_create")) throw std::bad_alloc();
+        throw;
+    }
 }
 
 int thread_count() {

@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "zskel/core/disjoint_sets.h"
+#include "zskel/core/parallel.h"
 #include "zskel/mesh/sides.h"
 
 namespace zskel {
@@ -66,6 +67,41 @@ std::vector<double> signed_volumes(const WeldedMesh& mesh, const Orientation& ou
     return volumes;
 }
 
+// What the edges say of the triangles beside them.
+struct Neighbours {
+    explicit Neighbours(std::size_t triangles)
+        : sets(triangles), touches_odd_edge(triangles, false) {}
+
+    TurnedSets sets;
+    std::vector<bool> touches_odd_edge;
+    std::vector<std::uint32_t> contradicted;  // triangles at edges where both turns are wrong
+};
+
+void meet_neighbours(const std::vector<Side>& sides, Neighbours& met, Orientation& out) {
+    // Over edges of more than two faces: which of them turns with which cannot be told.
+    std::vector<glm::uvec2> crowd;
+    for_each_edge(sides, [&](std::size_t first, std::size_t last) {
+        const std::size_t share = last - first;
+        out.edges.push_back(sides[first].edge);
+        out.open_edges += share == 1 ? 1 : 0;
+        out.crowded_edges += share > 2 ? 1 : 0;
+        for (std::size_t i = first; i < last && share != 2; ++i)
+            met.touches_odd_edge[sides[i].triangle] = true;
+        for (std::size_t i = first; i + 1 < last; ++i) {
+            const Side& a = sides[i];
+            const Side& b = sides[i + 1];
+            if (share > 2) {
+                crowd.emplace_back(a.triangle, b.triangle);
+                continue;
+            }
+            const bool agrees = a.is_forward != b.is_forward;
+            if (!met.sets.unite(a.triangle, b.triangle, !agrees))
+                met.contradicted.push_back(a.triangle);
+        }
+    });
+    for (const glm::uvec2& pair : crowd) met.sets.unite(pair.x, pair.y, false);
+}
+
 // Whether the triangles at every vertex hang together over edges.
 bool has_whole_fans(const std::vector<Side>& sides, const WeldedMesh& mesh) {
     DisjointSets corners(mesh.triangles.size() * 3);
@@ -83,41 +119,18 @@ bool has_whole_fans(const std::vector<Side>& sides, const WeldedMesh& mesh) {
 Orientation orient(WeldedMesh& mesh, std::vector<Side> sides, std::vector<Repair>& repairs) {
     Orientation out;
     const std::size_t count = mesh.triangles.size();
-    std::vector<bool> touches_odd_edge(count, false);
-    std::size_t contradictions = 0;
-    std::vector<std::uint32_t> contradicted;
-    TurnedSets sets(count);
-    // Neighbours over edges of more than two faces: which of them turns with which cannot be told.
-    std::vector<glm::uvec2> crowd;
-    for_each_edge(sides, [&](std::size_t first, std::size_t last) {
-        const std::size_t share = last - first;
-        out.edges.push_back(sides[first].edge);
-        out.open_edges += share == 1 ? 1 : 0;
-        out.crowded_edges += share > 2 ? 1 : 0;
-        for (std::size_t i = first; i < last && share != 2; ++i)
-            touches_odd_edge[sides[i].triangle] = true;
-        for (std::size_t i = first; i + 1 < last; ++i) {
-            const Side& a = sides[i];
-            const Side& b = sides[i + 1];
-            if (share > 2) {
-                crowd.emplace_back(a.triangle, b.triangle);
-                continue;
-            }
-            const bool agrees = a.is_forward != b.is_forward;
-            if (sets.unite(a.triangle, b.triangle, !agrees)) continue;
-            ++contradictions;
-            contradicted.push_back(a.triangle);
-        }
+    Neighbours neighbours(count);
+    // Two walks over all edges, for a thread each.
+    parallel_for(2, 1, [&](std::size_t begin, std::size_t end) {
+        if (begin == 0) meet_neighbours(sides, neighbours, out);
+        if (end == 2) out.fans_are_whole = has_whole_fans(sides, mesh);
     });
-    out.fans_are_whole = has_whole_fans(sides, mesh);
     sides = {};
-    for (const glm::uvec2& pair : crowd) sets.unite(pair.x, pair.y, false);
-
     out.component.assign(count, kNone);
     std::vector<std::size_t> sizes;
     std::vector<std::size_t> turns;
     for (std::uint32_t t = 0; t < count; ++t) {
-        const TurnedSets::Found found = sets.find(t);
+        const TurnedSets::Found found = neighbours.sets.find(t);
         if (found.lowest == t) {
             out.component[t] = out.component_count++;
             out.component_closed.push_back(true);
@@ -126,13 +139,14 @@ Orientation orient(WeldedMesh& mesh, std::vector<Side> sides, std::vector<Repair
             turns.push_back(0);
         }
         const std::uint32_t c = out.component[t] = out.component[found.lowest];
-        if (touches_odd_edge[t]) out.component_closed[c] = false;
+        if (neighbours.touches_odd_edge[t]) out.component_closed[c] = false;
         ++sizes[c];
         if (!found.turned) continue;
         ++turns[c];
         std::swap(mesh.triangles[t].y, mesh.triangles[t].z);
     }
-    for (const std::uint32_t t : contradicted) out.component_orientable[out.component[t]] = false;
+    for (const std::uint32_t t : neighbours.contradicted)
+        out.component_orientable[out.component[t]] = false;
     const std::vector<double> volumes = signed_volumes(mesh, out);
     for (std::size_t t = 0; t < count; ++t) {
         if (volumes[out.component[t]] < 0.0) std::swap(mesh.triangles[t].y, mesh.triangles[t].z);
@@ -147,7 +161,7 @@ Orientation orient(WeldedMesh& mesh, std::vector<Side> sides, std::vector<Repair
     note(repairs, "inside-out components turned", turned_components);
     note(repairs,
          "edges where no consistent orientation exists: there, inside and outside are not known",
-         contradictions);
+         neighbours.contradicted.size());
     return out;
 }
 

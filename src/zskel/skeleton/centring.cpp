@@ -41,7 +41,7 @@ class Centring {
         Vec3 centre{0.0f};
     };
     // In radii, and as a cosine: what may change before a section is looked at again.
-    static constexpr float kSameAcross = 0.02f;
+    static constexpr float kSameAcross = 0.05f;
     static constexpr float kSameAlong = 0.2f;
     static constexpr float kSameTangent = 0.9995f;
 

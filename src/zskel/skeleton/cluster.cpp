@@ -55,14 +55,20 @@ class PairQueue {
 };
 
 struct Cluster {
-    DVec3 sum{0.0};
-    double range_sum = 0.0;
-    double count = 0.0;
+    Cluster(const DVec3& center_sum, double ranges, double members)
+        : sum(center_sum),
+          range_sum(ranges),
+          count(members),
+          center(sum / count),
+          range(range_sum / count) {}
+
+    DVec3 sum;
+    double range_sum;
+    double count;
+    DVec3 center;
+    double range;
     std::vector<std::uint32_t> neighbours;  // may name clusters that have been merged since
     std::uint32_t merged_into = kNone;
-
-    DVec3 center() const { return sum / count; }
-    double range() const { return range_sum / count; }
 };
 
 class Merger {
@@ -72,7 +78,7 @@ class Merger {
         clusters_.reserve(points.size() * 2);
         merged_as_.assign(points.size() * 2, kNone);
         for (std::size_t i = 0; i < points.size(); ++i) {
-            clusters_.push_back({DVec3(points[i]), static_cast<double>(ranges[i]), 1.0, {}, kNone});
+            clusters_.emplace_back(DVec3(points[i]), static_cast<double>(ranges[i]), 1.0);
         }
         for (const glm::uvec2& link : links) {
             clusters_[link.x].neighbours.push_back(link.y);
@@ -105,8 +111,8 @@ class Merger {
   private:
     // Two clusters that are near enough to become one.
     std::optional<Pair> pair_of(std::uint32_t a, std::uint32_t b) const {
-        const double distance = glm::distance(clusters_[a].center(), clusters_[b].center());
-        const double range = std::min(clusters_[a].range(), clusters_[b].range());
+        const double distance = glm::distance(clusters_[a].center, clusters_[b].center);
+        const double range = std::min(clusters_[a].range, clusters_[b].range);
         if (distance > range) return std::nullopt;
         return Pair{range > 0.0 ? distance / range : 0.0, std::min(a, b), std::max(a, b)};
     }
@@ -115,10 +121,9 @@ class Merger {
     // stale.
     void merge(std::uint32_t a, std::uint32_t b) {
         const auto name = static_cast<std::uint32_t>(clusters_.size());
-        Cluster merged;
-        merged.sum = clusters_[a].sum + clusters_[b].sum;
-        merged.range_sum = clusters_[a].range_sum + clusters_[b].range_sum;
-        merged.count = clusters_[a].count + clusters_[b].count;
+        Cluster merged(clusters_[a].sum + clusters_[b].sum,
+                       clusters_[a].range_sum + clusters_[b].range_sum,
+                       clusters_[a].count + clusters_[b].count);
         merged_as_[a] = merged_as_[b] = name;
         for (const std::uint32_t part : {a, b}) {
             for (const std::uint32_t n : clusters_[part].neighbours) {
@@ -157,7 +162,7 @@ Clusters cluster_minima(std::span<const Vec3> points, std::span<const glm::uvec2
         const std::uint32_t cluster = merger.survivor(p);
         if (number[cluster] == kNone) {
             number[cluster] = static_cast<std::uint32_t>(out.centers.size());
-            out.centers.emplace_back(merger.at(cluster).center());
+            out.centers.emplace_back(merger.at(cluster).center);
         }
         out.of_point[p] = number[cluster];
     }

@@ -5,6 +5,7 @@
 #include <queue>
 #include <utility>
 
+#include "zskel/core/parallel.h"
 #include "zskel/mesh/vertex_graph.h"
 
 namespace zskel {
@@ -79,9 +80,11 @@ void fill(const Surface& surface, const VertexGraph& graph,
 std::vector<std::uint32_t> assign_patches(const Surface& surface, std::span<const Vec3> nodes,
                                           const NodeLinks& links,
                                           std::span<const std::uint32_t> near) {
-    std::vector<std::uint32_t> vertex_node;
-    for (std::size_t v = 0; v < near.size(); ++v)
-        vertex_node.push_back(nearest_along(surface.positions[v], near[v], nodes, links));
+    std::vector<std::uint32_t> vertex_node(near.size());
+    parallel_for(near.size(), 1024, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t v = begin; v < end; ++v)
+            vertex_node[v] = nearest_along(surface.positions[v], near[v], nodes, links);
+    });
     const VertexGraph graph(surface.positions.size(), surface.edges);
     keep_largest(graph, nodes.size(), vertex_node);
     fill(surface, graph, vertex_node);

@@ -18,14 +18,14 @@ constexpr double kLeastInward = 0.05;  // cosine to a face's inside that will do
 // The vertices at edges between whose points the way is not free, ascending.
 std::vector<std::uint32_t> ends_of_unfree(std::span<const glm::uvec2> edges,
                                           std::span<const Vec3> points, const SurfaceQuery& query) {
-    std::vector<std::uint8_t> is_unfree(edges.size());
+    std::vector<std::uint8_t> is_free(edges.size());
     parallel_for(edges.size(), 64, [&](std::size_t begin, std::size_t end) {
-        for (std::size_t e = begin; e < end; ++e)
-            is_unfree[e] = !query.sees(points[edges[e].x], points[edges[e].y]);
+        query.see(points, edges.subspan(begin, end - begin),
+                  std::span(is_free).subspan(begin, end - begin));
     });
     std::vector<std::uint32_t> ends;
     for (std::size_t e = 0; e < edges.size(); ++e) {
-        if (is_unfree[e]) ends.insert(ends.end(), {edges[e].x, edges[e].y});
+        if (is_free[e] == 0) ends.insert(ends.end(), {edges[e].x, edges[e].y});
     }
     std::sort(ends.begin(), ends.end());
     ends.erase(std::unique(ends.begin(), ends.end()), ends.end());

@@ -16,9 +16,11 @@ struct Walker {
     bool started = false;
 };
 
-// A force below this, in units of 1 / (distance of the nearest face), may be none: at 16 texels a
-// face a map's own error reaches 8e-4 where seeds rest (against 128 texels).
-constexpr float kNoForce = 2e-3f;
+// A seed with no farther to go than this share of a step is at rest. Near the axis of a tube of
+// radius R and the middle of a ball the force is (distance) / (3 R^2); where it is less than that
+// of half a step, steps of a fixed length swing across the axis wider and wider, from a map's
+// rounding on, and would end anywhere. At a third the swing has no time to grow.
+constexpr float kLeastShare = 0.3f;
 
 class PaperWalk {
   public:
@@ -48,13 +50,9 @@ class PaperWalk {
     }
 
   private:
-    // On the axis of a straight tube no force but a map's error is left, and it must not decide how
-    // far a seed slides along. `rest_away`: near the axis of a tube of radius R, and the middle of
-    // a ball, the force is (distance) / (3 R^2).
     bool is_spent(float strength, float radius) const {
-        const float rest_away = 3.0f * radius * radius * strength;
-        return strength * radius <= kNoForce &&
-               rest_away <= 0.5f * static_cast<float>(options_.step_world);
+        const float way_left = 3.0f * radius * radius * strength;
+        return way_left <= kLeastShare * static_cast<float>(options_.step_world);
     }
 
     static bool rest(SettledSeed& seed, SeedState state) {

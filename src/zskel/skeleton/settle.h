@@ -41,8 +41,8 @@ using SettleProgress = std::function<void(double)>;
 /// along the way is where it rests. All seeds that still move are evaluated together, one batch a
 /// round.
 /// @throws GlError when a GL pass fails; whatever `progress` throws.
-/// @see Wu et al. 2003, section 4.1, with its stop rule as printed; differs: a force that is within
-/// a coarse map's error of none counts as none.
+/// @see Wu et al. 2003, section 4.1, with its stop rule as printed; differs: a force that is spent
+/// within a third of a step counts as none.
 std::vector<SettledSeed> settle_seeds(VisibilitySource& source, std::span<const Seed> seeds,
                                       const PaperStepOptions& options,
                                       const SettleProgress& progress = {});

@@ -1,14 +1,11 @@
 #include "zskel/visibility/cpu_source.h"
 
-#include "zskel/core/simd_targets.h"
-
-#include <hwy/highway.h>
-
 #include <algorithm>
 #include <numeric>
 #include <utility>
 
 #include "zskel/core/assert.h"
+#include "zskel/core/instruction_set.h"
 #include "zskel/core/parallel.h"
 #include "zskel/visibility/cube_map.h"
 #include "zskel/visibility/triangle_clusters.h"
@@ -102,8 +99,7 @@ std::unique_ptr<VisibilitySource> make_cpu_source(const Surface& solid, int face
 }
 
 std::string cpu_instruction_set() {
-    const auto usable = hwy::SupportedTargets() & HWY_TARGETS;
-    return hwy::TargetName(usable & -usable);  // the lowest bit is the best
+    return hwy::TargetName(instruction_set());
 }
 
 }  // namespace zskel

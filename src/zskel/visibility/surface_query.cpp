@@ -101,6 +101,35 @@ bool SurfaceQuery::sees(const Vec3& from, const Vec3& to) const {
     return meets_nothing(impl_->scene.get(), embree_ray(from, to - from, 1.0f));
 }
 
+void SurfaceQuery::see(std::span<const Vec3> points, std::span<const glm::uvec2> pairs,
+                       std::span<std::uint8_t> is_free) const {
+    ZSKEL_ASSERT(pairs.size() == is_free.size(), "one answer a pair");
+    constexpr std::size_t kPacket = 16;
+    RTCIntersectContext context;
+    rtcInitIntersectContext(&context);
+    for (std::size_t first = 0; first < pairs.size(); first += kPacket) {
+        const std::size_t count = std::min(kPacket, pairs.size() - first);
+        RTCRay16 rays{};
+        alignas(64) int valid[kPacket];
+        for (std::size_t k = 0; k < kPacket; ++k) {
+            const glm::uvec2& pair = pairs[std::min(first + k, pairs.size() - 1)];
+            const Vec3& from = points[pair.x];
+            const Vec3 way = points[pair.y] - from;
+            valid[k] = k < count ? -1 : 0;
+            rays.org_x[k] = from.x;
+            rays.org_y[k] = from.y;
+            rays.org_z[k] = from.z;
+            rays.dir_x[k] = way.x;
+            rays.dir_y[k] = way.y;
+            rays.dir_z[k] = way.z;
+            rays.tfar[k] = 1.0f;
+            rays.mask[k] = 0xFFFFFFFFu;
+        }
+        rtcOccluded16(valid, impl_->scene.get(), &context, &rays);
+        for (std::size_t k = 0; k < count; ++k) is_free[first + k] = rays.tfar[k] >= 0.0f ? 1 : 0;
+    }
+}
+
 float SurfaceQuery::free_way(const Vec3& from, const Vec3& direction, float farthest) const {
     const auto hit = first_hit(from, from + direction * farthest);
     return hit ? hit->fraction * farthest : farthest;

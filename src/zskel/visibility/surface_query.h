@@ -34,6 +34,11 @@ class SurfaceQuery {
     /// Whether the segment meets no triangle: faster than `first_hit`.
     bool sees(const Vec3& from, const Vec3& to) const;
 
+    /// The same of the segments between pairs of `points`, 1 or 0 each; fastest where neighbours in
+    /// the list are neighbours in space.
+    void see(std::span<const Vec3> points, std::span<const glm::uvec2> pairs,
+             std::span<std::uint8_t> is_free) const;
+
     /// More than any solid's width, world units.
     static constexpr float kFarthest = 4.0f;
 

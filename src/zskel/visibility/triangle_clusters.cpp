@@ -1,7 +1,6 @@
 #include "zskel/visibility/triangle_clusters.h"
 
 #include <algorithm>
-#include <numeric>
 #include <span>
 #include <utility>
 
@@ -12,37 +11,41 @@ namespace {
 
 constexpr std::size_t kGroup = kBlock * kBlock;  // triangles
 
-using Members = std::span<std::uint32_t>;
+// A triangle and its centre: together, since halving looks at both.
+struct Member {
+    Vec3 center;
+    std::uint32_t triangle;
+};
+using Members = std::span<Member>;
 
 // Halves along the longest side of the centres' box, by whole groups or else by whole blocks.
-std::pair<Members, Members> halves(Members members, const std::vector<Vec3>& centers) {
+std::pair<Members, Members> halves(Members members) {
     Vec3 low(kInfinity);
     Vec3 high(-kInfinity);
-    for (const std::uint32_t t : members) {
-        low = glm::min(low, centers[t]);
-        high = glm::max(high, centers[t]);
+    for (const Member& member : members) {
+        low = glm::min(low, member.center);
+        high = glm::max(high, member.center);
     }
     const Vec3 size = high - low;
     const int axis = size.x >= size.y && size.x >= size.z ? 0 : size.y >= size.z ? 1 : 2;
     const std::size_t unit = members.size() > kGroup ? kGroup : kBlock;
     const std::size_t half = (members.size() / 2 + unit - 1) / unit * unit;
     std::nth_element(members.begin(), members.begin() + static_cast<std::ptrdiff_t>(half),
-                     members.end(), [&](std::uint32_t a, std::uint32_t b) {
-                         return std::pair(centers[a][axis], a) < std::pair(centers[b][axis], b);
+                     members.end(), [axis](const Member& a, const Member& b) {
+                         return a.center[axis] != b.center[axis] ? a.center[axis] < b.center[axis]
+                                                                 : a.triangle < b.triangle;
                      });
     return {members.first(half), members.subspan(half)};
 }
 
 // Parts of at most `most` members, neighbours in space next to each other in the list.
-std::vector<Members> parts_of(std::vector<Members> parts, std::size_t most,
-                              const std::vector<Vec3>& centers) {
+std::vector<Members> parts_of(std::vector<Members> parts, std::size_t most) {
     const auto is_large = [&](const Members& part) { return part.size() > most; };
     while (std::any_of(parts.begin(), parts.end(), is_large)) {
         std::vector<std::pair<Members, Members>> split(parts.size());
         parallel_for(parts.size(), 1, [&](std::size_t begin, std::size_t end) {
             for (std::size_t i = begin; i < end; ++i) {
-                split[i] =
-                    is_large(parts[i]) ? halves(parts[i], centers) : std::pair(parts[i], Members());
+                split[i] = is_large(parts[i]) ? halves(parts[i]) : std::pair(parts[i], Members());
             }
         });
         parts.clear();
@@ -66,7 +69,7 @@ void fill(TriangleBlock& block, BoxBlock& boxes, std::size_t box, const Surface&
           const Members& members) {
     for (std::size_t i = 0; i < kBlock; ++i) {
         const bool padding = i >= members.size();
-        const std::uint32_t t = members[padding ? 0 : i];
+        const std::uint32_t t = members[padding ? 0 : i].triangle;
         const Vec3 normal = padding ? Vec3(0.0f) : surface.triangle_normals[t];
         for (std::size_t k = 0; k < 3; ++k) {
             const auto axis = static_cast<int>(k);
@@ -86,15 +89,14 @@ void fill(TriangleBlock& block, BoxBlock& boxes, std::size_t box, const Surface&
 }  // namespace
 
 TriangleClusters cluster_triangles(const Surface& surface) {
-    std::vector<Vec3> centers(surface.triangles.size());
-    for (std::size_t t = 0; t < centers.size(); ++t) {
+    std::vector<Member> members(surface.triangles.size());
+    for (std::uint32_t t = 0; t < members.size(); ++t) {
         const Triangle& tri = surface.triangles[t];
-        centers[t] =
-            (surface.positions[tri.x] + surface.positions[tri.y] + surface.positions[tri.z]) / 3.0f;
+        members[t] = {
+            (surface.positions[tri.x] + surface.positions[tri.y] + surface.positions[tri.z]) / 3.0f,
+            t};
     }
-    std::vector<std::uint32_t> order(surface.triangles.size());
-    std::iota(order.begin(), order.end(), 0u);
-    const std::vector<Members> groups = parts_of({Members(order)}, kGroup, centers);
+    const std::vector<Members> groups = parts_of({Members(members)}, kGroup);
     TriangleClusters out;
     out.first_block.push_back(0);
     for (const Members& group : groups) {
@@ -107,7 +109,7 @@ TriangleClusters cluster_triangles(const Surface& surface) {
     parallel_for(groups.size(), 1, [&](std::size_t begin, std::size_t end) {
         for (std::size_t g = begin; g < end; ++g) {
             std::size_t box = 0;
-            for (const Members& block : parts_of({groups[g]}, kBlock, centers)) {
+            for (const Members& block : parts_of({groups[g]}, kBlock)) {
                 fill(out.triangles[out.first_block[g] + box], out.block_boxes[g], box, surface,
                      block);
                 ++box;

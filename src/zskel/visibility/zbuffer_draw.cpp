@@ -449,13 +449,13 @@ void draw(const TriangleClusters& clusters, const TexelGrid& grid, const Vec3& e
 HWY_AFTER_NAMESPACE();
 
 #if HWY_ONCE
-namespace zskel {
+#include "zskel/core/instruction_set.h"
 
-HWY_EXPORT(draw);
+namespace zskel {
 
 void draw_zbuffer(const TriangleClusters& clusters, const TexelGrid& grid, const Vec3& eye,
                   ZBuffer& buffer) {
-    HWY_DYNAMIC_DISPATCH(draw)(clusters, grid, eye, buffer);
+    ZSKEL_DISPATCH(draw)(clusters, grid, eye, buffer);
 }
 
 }  // namespace zskel

@@ -146,12 +146,12 @@ EyeRecord summarize(const Surface& surface, const TexelGrid& grid, const ZBuffer
 HWY_AFTER_NAMESPACE();
 
 #if HWY_ONCE
+#include "zskel/core/instruction_set.h"
+
 namespace zskel {
 
-HWY_EXPORT(summarize);
-
 EyeRecord summarize_zbuffer(const Surface& surface, const TexelGrid& grid, const ZBuffer& buffer) {
-    return HWY_DYNAMIC_DISPATCH(summarize)(surface, grid, buffer);
+    return ZSKEL_DISPATCH(summarize)(surface, grid, buffer);
 }
 
 }  // namespace zskel
