@@ -130,6 +130,21 @@ TEST_CASE("skeleton_json: holds nodes, edges, vertex map, statistics and provena
     CHECK(json["seeds"][3]["path"].size() == json["seeds"][3]["steps"].get<std::size_t>() + 1);
 }
 
+TEST_CASE("extract_skeleton: a sheet gets a few ways across, not one to every place at its rim") {
+    const auto same = [](const DVec3& p) { return p; };
+    Mesh plate = test::cube();
+    for (int i = 0; i < 4; ++i) plate = test::subdivided(plate, same);
+    for (DVec3& p : plate.positions) p.z *= 0.01;
+    const ExtractResult result = test::extract(plate, {});
+    CHECK(result.statistics.limbs > 0);
+    CHECK(result.statistics.limbs <= 12);
+
+    Mesh triangle;
+    triangle.positions = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
+    test::add_triangle(triangle, 0, 1, 2);
+    CHECK(test::extract(triangle, {}).graph.nodes.size() == 1);
+}
+
 TEST_CASE("extract_skeleton: nodes are evenly spread when that is asked for") {
     ExtractOptions options;
     options.newton.resample_model = 0.03;

@@ -11,6 +11,7 @@
 #include "zskel/skeleton/far_patches.h"
 #include "zskel/skeleton/girth.h"
 #include "zskel/skeleton/path.h"
+#include "zskel/skeleton/section.h"
 
 namespace zskel {
 namespace {
@@ -33,6 +34,12 @@ std::vector<std::uint32_t> all_of(std::span<const Connection> connections) {
     std::vector<std::uint32_t> numbers(connections.size());
     std::iota(numbers.begin(), numbers.end(), 0u);
     return numbers;
+}
+
+double median(std::vector<float>& numbers) {
+    const auto middle = numbers.begin() + static_cast<std::ptrdiff_t>(numbers.size() / 2);
+    std::nth_element(numbers.begin(), middle, numbers.end());
+    return static_cast<double>(*middle);
 }
 
 Arcs arcs_of(std::span<const Connection> connections, std::span<const std::uint32_t> numbers,
@@ -297,7 +304,7 @@ class LimbGrower {
         }
         for (std::size_t i = 1; i < limb.tip.size(); ++i)
             add(glm::distance(limb.tip[i - 1], limb.tip[i]), limb.tip[i], limb.tip_girths[i]);
-        if (!(outside > 0.0)) return false;
+        if (!(outside > 0.0) || is_strip_of_sheet(limb, outside)) return false;
         const double own = out * outside / girth_outside / options_.detail;
         const double of_junction = out / static_cast<double>(junction) / options_.detail;
         const bool is_bare = !limb.tip.empty();
@@ -306,6 +313,30 @@ class LimbGrower {
                (!is_bare || own >= options_.bare_own_girths ||
                 own * of_junction >= options_.bare_product ||
                 out >= options_.detail * options_.bare_world);
+    }
+
+    // Whether it runs through a sheet that is about as wide as the limb is long: any way across
+    // would do as well.
+    bool is_strip_of_sheet(const Limb& limb, double length) const {
+        std::vector<float> widths;
+        std::vector<float> girths;
+        const auto add = [&](const Vec3& point, const Vec3& way, float girth) {
+            const bool is_outside =
+                glm::distance(point, centers_[limb.way.back()]) > girths_[limb.way.back()];
+            if (!is_outside || !(glm::length(way) > 0.0f)) return;
+            widths.push_back(section_half_width(context_.query, point, glm::normalize(way)));
+            girths.push_back(girth);
+        };
+        for (std::size_t i = 0; i + 1 < limb.way.size(); ++i) {
+            const std::uint32_t c = limb.way[i];
+            add(centers_[c], centers_[c] - centers_[limb.way[i + 1]], girths_[c]);
+        }
+        for (std::size_t i = 1; i < limb.tip.size(); ++i)
+            add(limb.tip[i], limb.tip[i] - limb.tip[i - 1], limb.tip_girths[i]);
+        if (widths.empty()) return false;
+        const double width = median(widths);
+        return width > options_.flat_girths * median(girths) &&
+               length < options_.detail * options_.flat_widths * width;
     }
 
     // One limb changes what is far from the skeleton; what was looked at once is left alone.

@@ -11,4 +11,7 @@ namespace zskel {
 /// @param tangent  unit vector along the branch.
 Vec3 step_to_section_centre(const SurfaceQuery& query, const Vec3& point, const Vec3& tangent);
 
+/// Half the longest chord of the section across `tangent` through a point.
+float section_half_width(const SurfaceQuery& query, const Vec3& point, const Vec3& tangent);
+
 }  // namespace zskel
