@@ -72,6 +72,16 @@ TEST_CASE("extract_skeleton: every input vertex with a face has a node, others h
     CHECK_FALSE(result.warnings.empty());
 }
 
+TEST_CASE("extract_skeleton: the vertices of a tiny cavity have a node, and volumes add up") {
+    const Mesh pore = test::moved(test::sphere(0.005, 1), {0.2, 0.1, 0.0});
+    const ExtractResult result = test::extract(test::together(test::sphere(0.5), pore), {});
+    REQUIRE(result.graph.nodes.size() == 1);
+    CHECK(result.statistics.cavities == 1);
+    CHECK(std::count(result.graph.vertex_node.begin(), result.graph.vertex_node.end(), 0u) ==
+          static_cast<std::ptrdiff_t>(result.graph.vertex_node.size()));
+    CHECK(result.graph.nodes[0].volume == doctest::Approx(0.5236).epsilon(0.02));
+}
+
 TEST_CASE("extract_skeleton: solids get skeletons of their own, and do not see each other") {
     const Mesh one = test::sphere(0.3, 2);
     const Mesh pair = test::together(one, test::moved(one, {0.62, 0, 0}));

@@ -117,9 +117,11 @@ std::string to_text(const SkeletonComparison& c, const SkeletonBounds& bounds) {
         "skeletons: {} and {} nodes, {:.5f} of the diagonal apart in the mean\n"
         "seeds that end more than two steps apart: {} of {}",
         c.nodes_tested, c.nodes_reference, c.mean_distance_diagonals, c.parted.size(), c.seeds);
-    for (std::size_t i = 0; i < c.parted.size(); ++i) {
+    constexpr std::size_t kMostListed = 20;  // --json has them all
+    for (std::size_t i = 0; i < std::min(c.parted.size(), kMostListed); ++i)
         text += fmt::format("{}{}", i == 0 ? ", at vertices " : ", ", c.parted[i]);
-    }
+    if (c.parted.size() > kMostListed)
+        text += fmt::format(" and {} more", c.parted.size() - kMostListed);
     return text + fmt::format("\n{} (bounds: {:.0f} % of seeds, {:.0f} % of nodes, distance {})\n",
                               is_within(c, bounds) ? "within bounds" : "NOT within bounds",
                               100 * bounds.parted_share, 100 * bounds.node_share,

@@ -4,8 +4,9 @@
 #include <numeric>
 
 #include "zskel/core/disjoint_sets.h"
+#include "zskel/core/parallel.h"
 #include "zskel/mesh/sides.h"
-#include "zskel/mesh/winding.h"
+#include "zskel/mesh/winding_tree.h"
 
 namespace zskel {
 namespace {
@@ -42,14 +43,47 @@ bool box_inside(const Component& inner, const Component& outer) {
            glm::all(glm::lessThanEqual(inner.high, outer.high));
 }
 
-bool contains(const std::vector<Vec3>& positions, const Component& outer, const Component& inner) {
+bool contains(const WindingTree& outer, const std::vector<Vec3>& positions,
+              const Component& inner) {
     constexpr std::size_t kSamples = 16;
     const std::size_t stride = std::max<std::size_t>(1, inner.triangles.size() / kSamples);
     for (std::size_t t = 0; t < inner.triangles.size(); t += stride) {
-        const DVec3 sample(positions[inner.triangles[t].x]);
-        if (winding_number(positions, outer.triangles, sample) < 0.5) return false;
+        if (outer.at(DVec3(positions[inner.triangles[t].x])) < 0.5) return false;
     }
     return true;
+}
+
+// Finds what lies in what: closed components whose box lies in another's are looked at.
+void nest(std::vector<Component>& components, const std::vector<Vec3>& positions) {
+    std::vector<std::uint32_t> closed;
+    for (std::uint32_t c = 0; c < components.size(); ++c) {
+        if (components[c].closed) closed.push_back(c);
+    }
+    std::sort(closed.begin(), closed.end(), [&](std::uint32_t l, std::uint32_t r) {
+        return components[l].low.x < components[r].low.x;
+    });
+    std::vector<std::vector<std::uint32_t>> inside(components.size());
+    parallel_for(closed.size(), 16, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t i = begin; i < end; ++i) {
+            const Component& outer = components[closed[i]];
+            std::vector<std::uint32_t>& found = inside[closed[i]];
+            auto first =
+                std::lower_bound(closed.begin(), closed.end(), outer.low.x,
+                                 [&](std::uint32_t c, float x) { return components[c].low.x < x; });
+            for (; first != closed.end() && components[*first].low.x <= outer.high.x; ++first) {
+                if (*first != closed[i] && box_inside(components[*first], outer))
+                    found.push_back(*first);
+            }
+            if (found.empty()) continue;
+            const WindingTree tree(positions, outer.triangles);
+            std::erase_if(found, [&](std::uint32_t inner) {
+                return !contains(tree, positions, components[inner]);
+            });
+        }
+    });
+    for (std::uint32_t outer = 0; outer < inside.size(); ++outer) {
+        for (const std::uint32_t inner : inside[outer]) components[inner].around.push_back(outer);
+    }
 }
 
 // Gives every fan of triangles at a vertex a vertex of its own. Fans over an edge of more than two
@@ -140,14 +174,7 @@ std::vector<Solid> group_components(const PreparedSurface& prepared) {
         return solids;
     }
     std::vector<Component> components = collect(prepared);
-    for (Component& inner : components) {
-        if (!inner.closed) continue;
-        for (std::uint32_t o = 0; o < components.size(); ++o) {
-            const Component& outer = components[o];
-            if (&outer == &inner || !outer.closed || !box_inside(inner, outer)) continue;
-            if (contains(prepared.surface.positions, outer, inner)) inner.around.push_back(o);
-        }
-    }
+    nest(components, prepared.surface.positions);
     std::vector<std::vector<const Component*>> cavities(components.size());
     for (const Component& part : components) {
         if (part.around.size() % 2 == 0) continue;

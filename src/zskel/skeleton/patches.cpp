@@ -86,8 +86,13 @@ std::vector<std::uint32_t> assign_patches(const Surface& surface, std::span<cons
             vertex_node[v] = nearest_along(surface.positions[v], near[v], nodes, links);
     });
     const VertexGraph graph(surface.positions.size(), surface.edges);
+    const std::vector<std::uint32_t> nearest = vertex_node;
     keep_largest(graph, nodes.size(), vertex_node);
     fill(surface, graph, vertex_node);
+    // A cavity that holds no node's largest patch.
+    for (std::size_t v = 0; v < nearest.size(); ++v) {
+        if (vertex_node[v] == kNone) vertex_node[v] = nearest[v];
+    }
     return vertex_node;
 }
 
