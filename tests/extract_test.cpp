@@ -149,10 +149,27 @@ TEST_CASE("extract_skeleton: a sheet gets a few ways across, not one to every pl
     CHECK(result.statistics.limbs > 0);
     CHECK(result.statistics.limbs <= 12);
 
-    Mesh triangle;
-    triangle.positions = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
-    test::add_triangle(triangle, 0, 1, 2);
-    CHECK(test::extract(triangle, {}).graph.nodes.size() == 1);
+    // A quarter of a tube's wall, much longer than wide: a way along it, on it.
+    const Mesh tube = test::cylinder(0.1, 2.0, 24, 41);
+    Mesh strip;
+    strip.positions = tube.positions;
+    for (const Triangle& t : tube.triangles) {
+        const DVec3 middle =
+            (tube.positions[t.x] + tube.positions[t.y] + tube.positions[t.z]) / 3.0;
+        if (middle.x > 0.0 && middle.y > 0.0 && std::abs(middle.z) < 0.999)
+            test::add_triangle(strip, t.x, t.y, t.z);
+    }
+    const ExtractResult along = test::extract(strip, {});
+    CHECK(along.graph.nodes.size() < 200);
+    double length = 0.0;
+    for (const SkeletonGraph::Edge& edge : along.graph.edges)
+        length += glm::distance(along.graph.nodes[edge.source].position,
+                                along.graph.nodes[edge.target].position);
+    CHECK(length == doctest::Approx(2.0).epsilon(0.15));
+    for (const SkeletonGraph::Node& node : along.graph.nodes) {
+        CHECK(std::hypot(node.position.x, node.position.y) < 0.11);
+        CHECK(std::abs(node.position.z) < 1.01);
+    }
 }
 
 TEST_CASE("extract_skeleton: nodes are evenly spread when that is asked for") {

@@ -74,7 +74,7 @@ SolidSkeleton extract_solid(const Solid& solid, const SurfaceQuery& query,
     } else {
         skeleton = extract_by_newton(
             solid.surface, query, solid.is_closed, [&] { return backend.prepare(solid.surface); },
-            options.newton, progress);
+            solid.is_sheet ? for_sheets(options.newton) : options.newton, progress);
         if (!solid.openings.empty()) run_to_openings(solid, query, skeleton);
     }
     stages.begin("check");

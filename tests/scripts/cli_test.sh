@@ -223,6 +223,36 @@ case_match() {
     refused 3 'all/bad.json' match all/bad.json all/y.json
 }
 
+case_kills() {
+    # Killed at 50 moments all over a run that writes several files: each is the old one or a whole new one, and the
+    # next run is not disturbed by what was left.
+    local outputs=(-o work/horse.json --keep-maps work/horse.maps)
+    mkdir work whole
+    local start=${EPOCHREALTIME/./} moment file
+    run 0 extract "$models/horse.obj" --backend cpu "${outputs[@]}"
+    local length=$((${EPOCHREALTIME/./} - start))
+    cp work/horse.json work/horse.maps whole
+    for ((i = 0; i < 50; ++i)); do
+        echo old >work/horse.json
+        echo old >work/horse.maps
+        moment=$(((RANDOM << 15 | RANDOM) % (length * 5 / 4)))
+        label="kill -9 after $moment of $length microseconds"
+        "$zskel" extract "$models/horse.obj" --backend cpu "${outputs[@]}" >out 2>err &
+        sleep "$(printf '%d.%06d' $((moment / 1000000)) $((moment % 1000000)))"
+        kill -9 $! 2>/dev/null
+        wait $! 2>/dev/null
+        for file in horse.json horse.maps; do
+            [[ $(wc -c <work/$file) == 4 ]] || is_whole work/$file whole/$file || fail "$file is damaged"
+        done
+    done
+    label='after all kills'
+    run 0 extract "$models/horse.obj" --backend cpu "${outputs[@]}"
+    is_whole work/horse.json whole/horse.json || fail 'the skeleton differs'
+    is_whole work/horse.maps whole/horse.maps || fail 'the maps differ'
+}
+# The same file, but for the seconds that it tells of.
+is_whole() { cmp -s <(sed 's/"seconds":{[^}]*}//' "$1") <(sed 's/"seconds":{[^}]*}//' "$2"); }
+
 case_limits() {
     local slow=(--method paper --backend ray --face-px 16 --step 0.00001 --max-steps 100000) code start
     refused 7 'more than the 11 that --max-faces allows' extract cube.obj --max-faces 11 -o a.json

@@ -299,6 +299,7 @@ std::size_t drop_scraps(WeldedMesh& mesh, Orientation& parts, std::vector<Openin
         if (!closed[c] && areas[c] < kScrap * all) continue;
         number[c] = kept.component_count++;
         kept.component_closed.push_back(closed[c]);
+        kept.component_sheet.push_back(parts.component_sheet[c]);
         kept.component_orientable.push_back(parts.component_orientable[c]);
     }
     const std::size_t dropped = number.size() - kept.component_count;
@@ -315,6 +316,7 @@ std::size_t drop_scraps(WeldedMesh& mesh, Orientation& parts, std::vector<Openin
     parts.component = std::move(kept.component);
     parts.component_count = kept.component_count;
     parts.component_closed = std::move(kept.component_closed);
+    parts.component_sheet = std::move(kept.component_sheet);
     parts.component_orientable = std::move(kept.component_orientable);
     return dropped;
 }
@@ -349,6 +351,7 @@ std::vector<Opening> cap_openings(WeldedMesh& mesh, Orientation& parts,
         is_turned[component] = mine.volume < 0.0;
         mine.volume = std::abs(mine.volume);
         if (mine.is_sheet()) {
+            parts.component_sheet[component] = true;
             ++sheets;
             continue;
         }

@@ -134,6 +134,7 @@ Orientation orient(WeldedMesh& mesh, std::vector<Side> sides, std::vector<Repair
         if (found.lowest == t) {
             out.component[t] = out.component_count++;
             out.component_closed.push_back(true);
+            out.component_sheet.push_back(false);
             out.component_orientable.push_back(true);
             sizes.push_back(0);
             turns.push_back(0);

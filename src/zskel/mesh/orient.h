@@ -12,6 +12,7 @@ struct Orientation {
     std::vector<std::uint32_t> component;  ///< of every triangle: parts joined by edges
     std::uint32_t component_count = 0;
     std::vector<bool> component_closed;  ///< every edge has exactly two triangles
+    std::vector<bool> component_sheet;   ///< open, and too thin to hold anything if it were capped
     std::vector<bool> component_orientable;
     std::vector<glm::uvec2> edges;  ///< each once, lower place first, sorted
     bool fans_are_whole = false;    ///< the triangles at every place hang together over edges

@@ -17,6 +17,7 @@ struct Component {
     Vec3 low{kInfinity};
     Vec3 high{-kInfinity};
     bool closed = false;
+    bool sheet = false;
     std::vector<std::uint32_t> around;  // closed components that contain this one
 };
 
@@ -34,6 +35,7 @@ std::vector<Component> collect(const PreparedSurface& prepared) {
     }
     for (std::size_t i = 0; i < components.size(); ++i) {
         components[i].closed = prepared.component_closed[i];
+        components[i].sheet = prepared.component_sheet[i];
     }
     return components;
 }
@@ -86,6 +88,18 @@ void nest(std::vector<Component>& components, const std::vector<Vec3>& positions
     }
 }
 
+// The shell that a cavity is in: of the shells round it the one that lies inside the most; kNone
+// where there is none, since shells that cut each other may each lie round the other.
+std::uint32_t shell_round(const Component& part, const std::vector<Component>& components) {
+    std::uint32_t best = kNone;
+    if (part.around.size() % 2 == 0) return best;
+    for (const std::uint32_t c : part.around) {
+        const std::size_t depth = components[c].around.size();
+        if (depth % 2 == 0 && (best == kNone || depth > components[best].around.size())) best = c;
+    }
+    return best;
+}
+
 // Gives every fan of triangles at a vertex a vertex of its own. Fans over an edge of more than two
 // triangles count as one.
 void part_fans(Solid& solid) {
@@ -129,6 +143,7 @@ void finish(Solid& solid, const PreparedSurface& prepared) {
 Solid whole_surface(const PreparedSurface& prepared) {
     Solid solid;
     solid.is_closed = prepared.component_closed.front();
+    solid.is_sheet = prepared.component_sheet.front();
     solid.surface = prepared.surface;
     solid.vertex.resize(solid.surface.positions.size());
     std::iota(solid.vertex.begin(), solid.vertex.end(), 0u);
@@ -143,6 +158,7 @@ Solid one_of_many(const PreparedSurface& prepared, const Component& shell,
                   std::vector<std::uint32_t>& number) {
     Solid solid;
     solid.is_closed = shell.closed;
+    solid.is_sheet = shell.sheet;
     solid.cavity_count = static_cast<std::uint32_t>(cavities.size());
     Surface& surface = solid.surface;
     surface.world_from_model = prepared.surface.world_from_model;
@@ -176,19 +192,16 @@ std::vector<Solid> group_components(const PreparedSurface& prepared) {
     std::vector<Component> components = collect(prepared);
     nest(components, prepared.surface.positions);
     std::vector<std::vector<const Component*>> cavities(components.size());
-    for (const Component& part : components) {
-        if (part.around.size() % 2 == 0) continue;
-        // The nearest shell round a cavity is the one that lies inside all the others.
-        const std::uint32_t shell = *std::max_element(
-            part.around.begin(), part.around.end(), [&](std::uint32_t l, std::uint32_t r) {
-                return components[l].around.size() < components[r].around.size();
-            });
-        cavities[shell].push_back(&part);
+    std::vector<bool> is_shell(components.size(), true);
+    for (std::size_t i = 0; i < components.size(); ++i) {
+        const std::uint32_t shell = shell_round(components[i], components);
+        is_shell[i] = shell == kNone;
+        if (!is_shell[i]) cavities[shell].push_back(&components[i]);
     }
     std::vector<Solid> solids;
     std::vector<std::uint32_t> number(prepared.surface.positions.size(), kNone);
     for (std::size_t i = 0; i < components.size(); ++i) {
-        if (components[i].around.size() % 2 != 0) continue;
+        if (!is_shell[i]) continue;
         solids.push_back(one_of_many(prepared, components[i], cavities[i], number));
         finish(solids.back(), prepared);
     }

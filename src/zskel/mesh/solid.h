@@ -18,6 +18,7 @@ struct Solid {
     std::vector<std::uint32_t> caps;  ///< its triangles that are none of the input's
     std::uint32_t cavity_count = 0;
     bool is_closed = false;  ///< caps counted in
+    bool is_sheet = false;   ///< open, and too thin to hold anything
 };
 
 /// Groups the components of a surface into solids by nesting. Where a surface touches itself in a

@@ -163,6 +163,7 @@ PreparedSurface prepare_surface(const Mesh& mesh, WorldSize size, const RepairOp
     out.component = std::move(parts.component);
     out.component_count = parts.component_count;
     out.component_closed = std::move(parts.component_closed);
+    out.component_sheet = std::move(parts.component_sheet);
     out.fans_are_whole = parts.fans_are_whole;
     derive_normals(out.surface);
     const bool flat =

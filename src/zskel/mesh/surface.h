@@ -49,6 +49,7 @@ struct PreparedSurface {
     std::vector<std::uint32_t> component;       ///< of every triangle: parts joined by edges
     std::uint32_t component_count = 0;
     std::vector<bool> component_closed;  ///< every edge has exactly two triangles
+    std::vector<bool> component_sheet;   ///< open, and too thin to hold anything if it were capped
     bool fans_are_whole = false;         ///< the triangles at every vertex hang together over edges
     std::vector<Opening> openings;       ///< that caps close
     std::vector<Repair> repairs;

@@ -366,7 +366,9 @@ class LimbGrower {
         const Vec3 way = patch.centre - from;
         if (!(glm::length(way) > 0.0f)) return limb;
         const Vec3 ahead = glm::normalize(way);
-        const float last = kLastBallShare * context_.query.free_way(from, ahead);
+        const float free_way = context_.query.free_way(from, ahead);
+        if (free_way >= SurfaceQuery::kFarthest) return limb;  // out through an opening
+        const float last = kLastBallShare * free_way;
         for (int k = 0; k <= kTipPieces; ++k)
             limb.tip.push_back(
                 from + ahead * (last * static_cast<float>(k) / static_cast<float>(kTipPieces)));

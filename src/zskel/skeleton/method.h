@@ -73,6 +73,9 @@ struct NewtonMethodOptions {
     RefineOptions refine;
     double resample_model = 0.0;  ///< nodes evenly spread, at most so far apart; 0: by the radius
 };
+/// For what has no inside to be in the middle of: seeds stay on the sheet, and of the many ways
+/// along it only few are taken.
+NewtonMethodOptions for_sheets(NewtonMethodOptions options);
 SolidSkeleton extract_by_newton(
     const Surface& surface, const SurfaceQuery& query, bool is_closed,
     const std::function<std::unique_ptr<VisibilitySource>()>& make_source,

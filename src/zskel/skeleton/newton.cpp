@@ -44,7 +44,7 @@ class NewtonWalk {
         if (walker.started && (is_outside || !is_descent(walker, met))) return halve(walker, seed);
         accept(walker, seed, met);
         if (seed.steps >= static_cast<std::uint32_t>(options_.max_steps))
-            return rest(seed, SeedState::StepLimit);
+            return rest(seed, seed.steps > 0 ? SeedState::StepLimit : SeedState::Converged);
         return plan(walker, seed);
     }
 

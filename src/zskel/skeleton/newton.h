@@ -8,7 +8,7 @@
 namespace zskel {
 
 struct NewtonOptions {
-    int max_steps = 10;
+    int max_steps = 10;       ///< 0: seeds rest where they start
     double third_axis = 0.5;  ///< moves along the weakest axis only when its eigenvalue is above
                               ///< this share of the second: along a limb the force says nothing
     double eigenvalue_floor = 0.1;  ///< of the largest

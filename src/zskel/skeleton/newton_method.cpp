@@ -93,6 +93,14 @@ void flatten(const CurveGraph& graph, const Surface& surface, const SeedSpread& 
 
 }  // namespace
 
+NewtonMethodOptions for_sheets(NewtonMethodOptions options) {
+    constexpr double kLeastLimb = 0.3;
+    options.steps.max_steps = 0;
+    options.limbs.least_world = std::max(options.limbs.least_world, kLeastLimb);
+    options.refine.min_spacing_world = options.refine.max_spacing_world;
+    return options;
+}
+
 SolidSkeleton extract_by_newton(
     const Surface& surface, const SurfaceQuery& query, bool is_closed,
     const std::function<std::unique_ptr<VisibilitySource>()>& make_source,

@@ -11,42 +11,33 @@ namespace {
 constexpr std::size_t kPairs = 8;
 constexpr double kMostMedians = 3.0;
 
-// Free ways to both sides along pairs of opposite directions across a tangent.
-struct Section {
-    Section(const SurfaceQuery& query, const Vec3& point, const Vec3& tangent) {
-        const DVec3 along(tangent);
-        const DVec3 helper = std::abs(along.x) < 0.8 ? DVec3(1, 0, 0) : DVec3(0, 1, 0);
-        across = glm::normalize(glm::cross(along, helper));
-        up = glm::cross(along, across);
-        std::array<Vec3, 2 * kPairs> rays;
-        for (std::size_t i = 0; i < kPairs; ++i) {
-            const double angle = std::numbers::pi * static_cast<double>(i) / kPairs;
-            directions[i] = across * std::cos(angle) + up * std::sin(angle);
-            rays[i] = Vec3(directions[i]);
-            rays[i + kPairs] = -rays[i];
-        }
-        std::array<float, 2 * kPairs> free_ways{};
-        query.free_ways(point, rays, free_ways);
-        std::copy(free_ways.begin(), free_ways.end(), ways.begin());
-    }
-
-    DVec3 across;
-    DVec3 up;
-    std::array<DVec3, kPairs> directions;
-    std::array<double, 2 * kPairs> ways{};  // of the directions, then of their opposites
-};
-
 }  // namespace
 
 Vec3 step_to_section_centre(const SurfaceQuery& query, const Vec3& point, const Vec3& tangent) {
-    const Section section(query, point, tangent);
-    const auto& [across, up, directions, ways] = section;
+    const DVec3 along(tangent);
+    const DVec3 helper = std::abs(along.x) < 0.8 ? DVec3(1, 0, 0) : DVec3(0, 1, 0);
+    const DVec3 across = glm::normalize(glm::cross(along, helper));
+    const DVec3 up = glm::cross(along, across);
+    std::array<DVec3, kPairs> directions;
+    std::array<Vec3, 2 * kPairs> rays;
+    for (std::size_t i = 0; i < kPairs; ++i) {
+        const double angle = std::numbers::pi * static_cast<double>(i) / kPairs;
+        directions[i] = across * std::cos(angle) + up * std::sin(angle);
+        rays[i] = Vec3(directions[i]);
+        rays[i + kPairs] = -rays[i];
+    }
+    std::array<float, 2 * kPairs> free_ways{};
+    query.free_ways(point, rays, free_ways);
+    std::array<double, 2 * kPairs> ways{};
+    std::copy(free_ways.begin(), free_ways.end(), ways.begin());
     std::array<double, 2 * kPairs> sorted = ways;
     std::nth_element(sorted.begin(), sorted.begin() + kPairs, sorted.end());
     const double limit = kMostMedians * sorted[kPairs];
     // A move m changes (u - v) / (u + v) by -2 m.d / (u + v): normal equations in the plane.
     double aa = 0.0, ab = 0.0, bb = 0.0, ra = 0.0, rb = 0.0;
     for (std::size_t i = 0; i < kPairs; ++i) {
+        const double longer = std::max(ways[i], ways[i + kPairs]);
+        if (longer >= static_cast<double>(SurfaceQuery::kFarthest)) continue;
         const double u = std::min(ways[i], limit);
         const double v = std::min(ways[i + kPairs], limit);
         if (!(u + v > 0.0)) return Vec3(0.0f);
@@ -66,11 +57,13 @@ Vec3 step_to_section_centre(const SurfaceQuery& query, const Vec3& point, const 
 }
 
 float section_half_width(const SurfaceQuery& query, const Vec3& point, const Vec3& tangent) {
-    const Section section(query, point, tangent);
-    double longest = 0.0;
-    for (std::size_t i = 0; i < kPairs; ++i)
-        longest = std::max(longest, section.ways[i] + section.ways[i + kPairs]);
-    return static_cast<float>(0.5 * longest);
+    const Vec3 along = glm::cross(tangent, query.nearest(point).point - point);
+    if (!(glm::length(along) > 0.0f)) return 0.0f;
+    const std::array<Vec3, 2> rays{glm::normalize(along), -glm::normalize(along)};
+    std::array<float, 2> ways{};
+    query.free_ways(point, rays, ways);
+    const bool leads_out = std::max(ways[0], ways[1]) >= SurfaceQuery::kFarthest;
+    return leads_out ? 0.0f : 0.5f * (ways[0] + ways[1]);
 }
 
 }  // namespace zskel
