@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <numbers>
 #include <unordered_set>
 #include <utility>
 
@@ -48,6 +49,7 @@ class Sampler {
                 for (std::size_t i = begin; i < end; ++i) sampled[i] = sample_block(wanted[i]);
             });
             for (LevelSetBlock& block : sampled) {
+                if (block.values.empty()) continue;
                 const auto [least, most] =
                     std::minmax_element(block.values.begin(), block.values.end());
                 if (*least < 0.0f && *most >= 0.0f) want_round(block.at);
@@ -76,8 +78,13 @@ class Sampler {
         }
     }
 
+    // Without values where no surface is near: the box round a long triangle is mostly empty.
     LevelSetBlock sample_block(const glm::ivec3& at) const {
         LevelSetBlock block{at, {}};
+        const DVec3 middle = place(DVec3(at * kLevelSetBlock) + 0.5 * (kLevelSetBlock - 1));
+        const double reach = 0.5 * std::numbers::sqrt3 * (kLevelSetBlock + 2) * side_;
+        if (all_closed_ && static_cast<double>(query_.nearest(Vec3(middle)).distance) > reach)
+            return block;
         block.values.reserve(static_cast<std::size_t>(kPlaces));
         bool is_inside = false;
         double last = 0.0;  // distance at the place before, along z

@@ -287,26 +287,44 @@ class LimbGrower {
         return tip.size() > 1 ? tip : std::vector<Vec3>{};
     }
 
-    // The limb's own girth is that of what lies outside the ball that it grows from.
-    bool is_limb(const Limb& limb, double out) const {
-        const Vec3& root = centers_[limb.way.back()];
-        const float junction = girths_[limb.way.back()];
-        double outside = 0.0;
-        double girth_outside = 0.0;
-        const auto add = [&](float length, const Vec3& end, float girth) {
-            if (glm::distance(end, root) <= junction) return;
-            outside += static_cast<double>(length);
-            girth_outside += static_cast<double>(length * girth);
-        };
+    struct Piece {
+        Vec3 from;
+        Vec3 to;  // the outer end
+        float length;
+        float girth;
+    };
+
+    // What of a limb lies outside the ball that it grows from.
+    std::vector<Piece> pieces_outside(const Limb& limb) const {
+        std::vector<Piece> pieces;
         for (std::size_t i = 0; i + 1 < limb.way.size(); ++i) {
             const std::uint32_t c = limb.way[i];
-            add(connections_[ways_[c].connection].length, centers_[c], girths_[c]);
+            pieces.push_back({centers_[limb.way[i + 1]], centers_[c],
+                              connections_[ways_[c].connection].length, girths_[c]});
         }
         for (std::size_t i = 1; i < limb.tip.size(); ++i)
-            add(glm::distance(limb.tip[i - 1], limb.tip[i]), limb.tip[i], limb.tip_girths[i]);
-        if (!(outside > 0.0) || is_strip_of_sheet(limb, outside)) return false;
+            pieces.push_back({limb.tip[i - 1], limb.tip[i],
+                              glm::distance(limb.tip[i - 1], limb.tip[i]), limb.tip_girths[i]});
+        const std::uint32_t root = limb.way.back();
+        std::erase_if(pieces, [&](const Piece& piece) {
+            return glm::distance(piece.to, centers_[root]) <= girths_[root];
+        });
+        return pieces;
+    }
+
+    // The limb's own girth is that of what lies outside the ball that it grows from.
+    bool is_limb(const Limb& limb, double out) const {
+        const std::vector<Piece> pieces = pieces_outside(limb);
+        double outside = 0.0;
+        double girth_outside = 0.0;
+        for (const Piece& piece : pieces) {
+            outside += static_cast<double>(piece.length);
+            girth_outside += static_cast<double>(piece.length * piece.girth);
+        }
+        if (!(outside > 0.0) || is_strip_of_sheet(pieces, outside)) return false;
+        const auto junction = static_cast<double>(girths_[limb.way.back()]);
         const double own = out * outside / girth_outside / options_.detail;
-        const double of_junction = out / static_cast<double>(junction) / options_.detail;
+        const double of_junction = out / junction / options_.detail;
         const bool is_bare = !limb.tip.empty();
         return own >= options_.least_own_girths && of_junction >= options_.least_junction_girths &&
                own * of_junction >= options_.least_product &&
@@ -317,22 +335,15 @@ class LimbGrower {
 
     // Whether it runs through a sheet that is about as wide as the limb is long: any way across
     // would do as well.
-    bool is_strip_of_sheet(const Limb& limb, double length) const {
+    bool is_strip_of_sheet(const std::vector<Piece>& pieces, double length) const {
         std::vector<float> widths;
         std::vector<float> girths;
-        const auto add = [&](const Vec3& point, const Vec3& way, float girth) {
-            const bool is_outside =
-                glm::distance(point, centers_[limb.way.back()]) > girths_[limb.way.back()];
-            if (!is_outside || !(glm::length(way) > 0.0f)) return;
-            widths.push_back(section_half_width(context_.query, point, glm::normalize(way)));
-            girths.push_back(girth);
-        };
-        for (std::size_t i = 0; i + 1 < limb.way.size(); ++i) {
-            const std::uint32_t c = limb.way[i];
-            add(centers_[c], centers_[c] - centers_[limb.way[i + 1]], girths_[c]);
+        for (const Piece& piece : pieces) {
+            const Vec3 way = piece.to - piece.from;
+            if (!(glm::length(way) > 0.0f)) continue;
+            widths.push_back(section_half_width(context_.query, piece.to, glm::normalize(way)));
+            girths.push_back(piece.girth);
         }
-        for (std::size_t i = 1; i < limb.tip.size(); ++i)
-            add(limb.tip[i], limb.tip[i] - limb.tip[i - 1], limb.tip_girths[i]);
         if (widths.empty()) return false;
         const double width = median(widths);
         return width > options_.flat_girths * median(girths) &&
