@@ -21,6 +21,8 @@ struct Walker {
 // of half a step, steps of a fixed length swing across the axis wider and wider, from a map's
 // rounding on, and would end anywhere. At a third the swing has no time to grow.
 constexpr float kLeastShare = 0.3f;
+// As long as it is near the axis, that is: at a wall the force is a sixth of 1 / (distance).
+constexpr float kNearAxis = 0.02f;
 
 class PaperWalk {
   public:
@@ -52,7 +54,8 @@ class PaperWalk {
   private:
     bool is_spent(float strength, float radius) const {
         const float way_left = 3.0f * radius * radius * strength;
-        return way_left <= kLeastShare * static_cast<float>(options_.step_world);
+        return strength * radius <= kNearAxis &&
+               way_left <= kLeastShare * static_cast<float>(options_.step_world);
     }
 
     static bool rest(SettledSeed& seed, SeedState state) {
