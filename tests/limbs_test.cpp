@@ -56,10 +56,10 @@ TEST_CASE("a step to the section's centre lands on a tube's axis, from either si
     CHECK(tube.model(glm::distance(point, tube.at(0, 0, 0))) < 0.002);
 }
 
-TEST_CASE("half a section's width is half its longest chord") {
+TEST_CASE("half a section's width is half the chord along the nearest wall") {
     const Shape tube(test::cylinder(0.1, 2.0));
     CHECK(tube.model(section_half_width(tube.query, tube.at(0.05, 0, 0), Vec3(0, 0, 1))) ==
-          doctest::Approx(0.1).epsilon(0.02));
+          doctest::Approx(0.1 * std::sqrt(0.75)).epsilon(0.003));
 }
 
 TEST_CASE("a ball covers only the places that its centre sees") {

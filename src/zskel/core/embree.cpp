@@ -3,18 +3,25 @@
 #include <fmt/format.h>
 
 #include <new>
+#include <string_view>
 
 #include "zskel/core/error.h"
 
 namespace zskel {
+namespace {
+
+[[noreturn]] void fail(RTCError error, std::string_view what) {
+    if (error == RTC_ERROR_OUT_OF_MEMORY) throw std::bad_alloc();
+    throw Error(ExitCode::Backend,
+                fmt::format("Embree {} (error {})", what, static_cast<int>(error)));
+}
+
+}  // namespace
 
 EmbreeDevice open_embree() {
     EmbreeDevice device(rtcNewDevice(nullptr));
-    if (device != nullptr) return device;
-    const RTCError error = rtcGetDeviceError(nullptr);
-    if (error == RTC_ERROR_OUT_OF_MEMORY) throw std::bad_alloc();
-    throw Error(ExitCode::Backend,
-                fmt::format("Embree gives no device (error {})", static_cast<int>(error)));
+    if (device == nullptr) fail(rtcGetDeviceError(nullptr), "gives no device");
+    return device;
 }
 
 RTCRay embree_ray(const Vec3& from, const Vec3& along, float farthest) {
@@ -40,11 +47,7 @@ bool meets_nothing(RTCScene scene, RTCRay ray) {
 void build_hierarchy(RTCScene scene, RTCDevice device) {
     rtcCommitScene(scene);
     const RTCError error = rtcGetDeviceError(device);
-    if (error == RTC_ERROR_OUT_OF_MEMORY) throw std::bad_alloc();
-    if (error != RTC_ERROR_NONE) {
-        throw Error(ExitCode::Backend,
-                    fmt::format("Embree builds no hierarchy (error {})", static_cast<int>(error)));
-    }
+    if (error != RTC_ERROR_NONE) fail(error, "builds no hierarchy");
 }
 
 }  // namespace zskel

@@ -22,6 +22,19 @@ class EmbreeScene {
     EmbreeHierarchy scene_;
 };
 
+/// Fills place `k` of a packet, as `embree_ray` does one ray.
+inline void set_ray(RTCRay16& rays, std::size_t k, const Vec3& from, const Vec3& along,
+                    float farthest) {
+    rays.org_x[k] = from.x;
+    rays.org_y[k] = from.y;
+    rays.org_z[k] = from.z;
+    rays.dir_x[k] = along.x;
+    rays.dir_y[k] = along.y;
+    rays.dir_z[k] = along.z;
+    rays.tfar[k] = farthest;
+    rays.mask[k] = 0xFFFFFFFFu;
+}
+
 /// Casts rays from one point in unit directions, 16 at a time, and tells `take(ray, distance,
 /// triangle)` of each: kInfinity and kNone where nothing is hit.
 template <typename Take>
@@ -36,16 +49,9 @@ void cast_rays(const EmbreeScene& scene, const Vec3& from, std::span<const Vec3>
         RTCRayHit16 rays{};
         alignas(64) int valid[kPacket];
         for (std::size_t k = 0; k < kPacket; ++k) {
-            const Vec3& d = directions[std::min(first + k, directions.size() - 1)];
             valid[k] = k < count ? -1 : 0;
-            rays.ray.org_x[k] = from.x;
-            rays.ray.org_y[k] = from.y;
-            rays.ray.org_z[k] = from.z;
-            rays.ray.dir_x[k] = d.x;
-            rays.ray.dir_y[k] = d.y;
-            rays.ray.dir_z[k] = d.z;
-            rays.ray.tfar[k] = kInfinity;
-            rays.ray.mask[k] = 0xFFFFFFFFu;
+            set_ray(rays.ray, k, from, directions[std::min(first + k, directions.size() - 1)],
+                    kInfinity);
             rays.hit.geomID[k] = RTC_INVALID_GEOMETRY_ID;
         }
         rtcIntersect16(valid, scene.get(), &context, &rays);

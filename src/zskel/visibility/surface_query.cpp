@@ -113,17 +113,8 @@ void SurfaceQuery::see(std::span<const Vec3> points, std::span<const glm::uvec2>
         alignas(64) int valid[kPacket];
         for (std::size_t k = 0; k < kPacket; ++k) {
             const glm::uvec2& pair = pairs[std::min(first + k, pairs.size() - 1)];
-            const Vec3& from = points[pair.x];
-            const Vec3 way = points[pair.y] - from;
             valid[k] = k < count ? -1 : 0;
-            rays.org_x[k] = from.x;
-            rays.org_y[k] = from.y;
-            rays.org_z[k] = from.z;
-            rays.dir_x[k] = way.x;
-            rays.dir_y[k] = way.y;
-            rays.dir_z[k] = way.z;
-            rays.tfar[k] = 1.0f;
-            rays.mask[k] = 0xFFFFFFFFu;
+            set_ray(rays, k, points[pair.x], points[pair.y] - points[pair.x], 1.0f);
         }
         rtcOccluded16(valid, impl_->scene.get(), &context, &rays);
         for (std::size_t k = 0; k < count; ++k) is_free[first + k] = rays.tfar[k] >= 0.0f ? 1 : 0;
