@@ -17,8 +17,9 @@ namespace {
 namespace fs = std::filesystem;
 
 bool parse_number(std::string_view text, std::size_t& value) {
-    const char* const end = text.data() + text.size();
-    const auto [stop, error] = std::from_chars(text.data(), end, value);
+    const char* const start = text.data();
+    const char* const end = start + text.size();
+    const auto [stop, error] = std::from_chars(start, end, value);
     return error == std::errc() && stop == end;
 }
 

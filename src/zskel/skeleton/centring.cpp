@@ -77,7 +77,7 @@ class Centring {
     }
 
     template <typename Iterator>
-    void fade_centring(Iterator first, Iterator last) {
+    void fade_centring(Iterator first, const Iterator& last) {
         const Node& junction = graph_.nodes[*first];
         if (junction.links.size() < 3) return;
         const float reach = static_cast<float>(options_.junction_radii) *
