@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
+#include <glm/gtc/matrix_transform.hpp>
 
 #include "support/extract.h"
 #include "support/shapes.h"
@@ -58,6 +59,32 @@ TEST_CASE("RecallMap: planes come back exactly, however few texels saw them") {
         CHECK(glm::distance(seen.outward, DVec3(0, 1, 0)) < 1e-4);
         CHECK(seen.footprint == doctest::Approx(0.25 * p.y));
     }
+}
+
+TEST_CASE("RecallMap: creases stay sharp, on the edges of faces and across texels, both ways") {
+    // A cube turned about its middle; and the four beams of a cross, whose inner edges point at it.
+    const auto frame = glm::dmat3(glm::rotate(glm::dmat4(1.0), 0.4, DVec3(0.3, 0.7, -0.5)));
+    const auto cross = [](const DVec3& d) {
+        const double x = std::abs(d.x);
+        const double y = std::abs(d.y);
+        const double walls = 1.0 / std::max(std::min(x, y), std::abs(d.z) / 2.0);
+        return std::min(walls, 3.0 / std::max(x, y));
+    };
+    const auto share_off = [](int face_px, auto&& distance, double tolerance) {
+        const RecallMap map(map_of(DVec3(0.0), face_px, distance), face_px);
+        const std::vector<DVec3> directions = radial_directions(5000).unit;
+        const auto off = std::ranges::count_if(directions, [&](const DVec3& d) {
+            return std::abs(map.look_at(distance(d) * d).inside) > tolerance;
+        });
+        return static_cast<double>(off) / static_cast<double>(directions.size());
+    };
+    const auto turned_cube = [&](const DVec3& d) { return to_cube(frame * d); };
+    const auto turned_cross = [&](const DVec3& d) { return cross(frame * d); };
+    for (const int face_px : {8, 16, 32}) CHECK(share_off(face_px, to_cube, 0.001) == 0.0);
+    // Interpolated across the creases: 4.9, 7.6 and 6.5 %.
+    CHECK(share_off(32, turned_cube, 0.001) < 0.01);
+    CHECK(share_off(32, cross, 0.01) < 0.01);
+    CHECK(share_off(32, turned_cross, 0.01) < 0.01);
 }
 
 TEST_CASE("RecallMap: a ball comes back within the sagitta of a texel, across the edges of faces") {

@@ -11,7 +11,6 @@
 
 #include "zskel/core/lattice_hash.h"
 #include "zskel/core/parallel.h"
-#include "zskel/visibility/cube_map.h"
 
 namespace zskel {
 namespace {
@@ -19,6 +18,10 @@ namespace {
 // Four texels whose depths differ by more than this factor are taken to lie on two surfaces: what
 // is farther is not believed.
 constexpr float kMostDepthRatio = 1.5f;
+// Four texels see a crease when the plane that one sees passes another's depth by this share of it.
+// Smooth walls stay below, h^2 D / 2 R for texels of width h = 1/16, walls at D and radii R > D
+// / 5.
+constexpr float kCreaseShare = 0.01f;
 // Within so many texels of a plane a sighting tells where the surface is; farther before it, that
 // there is none.
 constexpr double kNearFootprints = 1.5;
@@ -58,6 +61,7 @@ RecallMap::RecallMap(const NodeMap& node, int face_px) : eye_(node.eye), face_px
         if (std::isfinite(d) && d > 0.0f) texel(at.face, at.column, at.row) = length / d;
     }
     fill_border();
+    find_creases();
 }
 
 float RecallMap::texel(int face, int column, int row) const {
@@ -71,6 +75,11 @@ float& RecallMap::texel(int face, int column, int row) {
     return inverse_depth_[static_cast<std::size_t>(at)];
 }
 
+std::size_t RecallMap::quad(int face, int column, int row) const {
+    const int side = face_px_ + 1;
+    return static_cast<std::size_t>((face * side + row + 1) * side + column + 1);
+}
+
 // From the faces beside: half a texel over a face's edge lies half a texel within the next one.
 void RecallMap::fill_border() {
     const double px = face_px_;
@@ -80,7 +89,7 @@ void RecallMap::fill_border() {
         const int other = face_of(direction);
         const DVec3 local = in_face(direction, other);
         const auto place = [&](double share) {
-            return std::clamp(0.5 * px * (share / local.z + 1.0) - 0.5, 0.0, px - 1.0);
+            return std::max(0.5 * px * (share / local.z + 1.0) - 0.5, 0.0);
         };
         const double x = place(local.x);
         const double y = place(local.y);
@@ -112,6 +121,78 @@ void RecallMap::fill_border() {
     }
 }
 
+// By the differences to the texels before and after, within the face: those that bend least count
+// most (as in weighted essentially non-oscillatory schemes), so that a crease beside it is not in
+// it.
+Vec3 RecallMap::plane_of(const Texel& at) const {
+    const float here = texel(at.face, at.column, at.row);
+    const auto slope = [&](int place, auto&& depth) {
+        float sum = 0.0f;
+        float weights = 0.0f;
+        for (const int side : {-1, 1}) {
+            const int far = place + 2 * side;
+            if (far < 0 || far >= face_px_) continue;
+            const float step = depth(place + side) - here;
+            const float bend = (depth(far) - depth(place + side) - step) / here;
+            const float weight = 1.0f / (1e-8f + bend * bend);
+            // The parabola's slope through the three.
+            sum += weight * static_cast<float>(side) * (step - 0.5f * bend * here);
+            weights += weight;
+        }
+        return sum / weights * 0.5f * static_cast<float>(face_px_);
+    };
+    const float a = slope(at.column, [&](int c) { return texel(at.face, c, at.row); });
+    const float b = slope(at.row, [&](int r) { return texel(at.face, at.column, r); });
+    const DVec3 along = texel_direction(at, face_px_);
+    const DVec3 place = in_face(along, at.face);
+    const double c = here - a * place.x - b * place.y;
+    return Vec3(from_face({a, b, c}, at.face));
+}
+
+void RecallMap::find_creases() {
+    const int px = face_px_;
+    std::vector<Vec3> planes(static_cast<std::size_t>(6 * px * px));
+    for (std::size_t i = 0; i < planes.size(); ++i) planes[i] = plane_of(texel_at(i, px));
+    crease_of_.assign(static_cast<std::size_t>(6 * (px + 1) * (px + 1)), kNone);
+    const auto direction_of = [&](int face, int column, int row) {
+        return from_face({(2.0 * column + 1.0) / px - 1.0, (2.0 * row + 1.0) / px - 1.0, 1.0},
+                         face);
+    };
+    for (int face = 0; face < 6; ++face) {
+        for (int row = -1; row < px; ++row) {
+            for (int column = -1; column < px; ++column) {
+                Crease crease;
+                std::array<Vec3, 4> along{};
+                std::array<float, 4> inverse{};
+                for (int k = 0; k < 4; ++k) {
+                    const DVec3 direction = direction_of(face, column + k % 2, row + k / 2);
+                    const std::size_t seen_by = texel_index(texel_of_direction(direction, px), px);
+                    crease.planes[k] = planes[seen_by];
+                    along[k] = Vec3(direction);
+                    inverse[k] = texel(face, column + k % 2, row + k / 2);
+                }
+                const auto [least, most] = std::minmax_element(inverse.begin(), inverse.end());
+                if (*most > *least * kMostDepthRatio) continue;
+                float below = 0.0f;
+                float above = 0.0f;
+                for (int k = 0; k < 4; ++k) {
+                    for (int l = 0; l < 4; ++l) {
+                        const float past = glm::dot(crease.planes[k], along[l]) - inverse[l];
+                        below = std::max(below, -past / inverse[l]);
+                        above = std::max(above, past / inverse[l]);
+                    }
+                }
+                if (std::max(below, above) < kCreaseShare) continue;
+                // Planes that pass one another's texels on both sides do not meet here.
+                if (std::min(below, above) > 0.5f * kCreaseShare) continue;
+                crease.is_convex = below > above;
+                crease_of_[quad(face, column, row)] = static_cast<std::uint32_t>(creases_.size());
+                creases_.push_back(crease);
+            }
+        }
+    }
+}
+
 Sighting RecallMap::look_at(const DVec3& place) const {
     const DVec3 direction = place - eye_;
     if (direction == DVec3(0.0)) return {farthest_, 0.0, DVec3(0.0)};
@@ -131,7 +212,13 @@ Sighting RecallMap::look_at(const DVec3& place) const {
     const float least = std::min({q00, q10, q01, q11});
     // a X + b Y + c Z = 1 in the face's axes.
     DVec3 plane(0.0, 0.0, most);
-    if (most <= least * kMostDepthRatio) {
+    const std::uint32_t crease = crease_of_[quad(face, i, j)];
+    if (crease != kNone) {
+        const auto& [planes, is_convex] = creases_[crease];
+        const auto ahead = [&](const Vec3& p) { return glm::dot(DVec3(p), direction); };
+        const auto [far, near] = std::ranges::minmax_element(planes, {}, ahead);
+        plane = in_face(DVec3(is_convex ? *near : *far), face);
+    } else if (most <= least * kMostDepthRatio) {
         const double fx = x - i;
         const double fy = y - j;
         const double a = ((q10 - q00) * (1.0 - fy) + (q11 - q01) * fy) / texel_width;

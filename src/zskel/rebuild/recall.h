@@ -5,6 +5,7 @@
 
 #include "zskel/core/types.h"
 #include "zskel/rebuild/visibility_maps.h"
+#include "zskel/visibility/cube_map.h"
 
 namespace zskel {
 
@@ -16,7 +17,8 @@ struct Sighting {
 };
 
 /// One node's map, made ready for questions. On a face of a cube map the inverse of the axial depth
-/// is affine over a plane, so what is interpolated between four texels is the plane that they see.
+/// is affine over a plane, so what is interpolated between four texels is the plane that they see;
+/// where the four see different planes that meet in a crease, the plane on the place's side of it.
 class RecallMap {
   public:
     RecallMap(const NodeMap& node, int face_px);
@@ -28,14 +30,26 @@ class RecallMap {
     double farthest() const { return farthest_; }  ///< that it saw
 
   private:
+    // What four texels about a crease see, each by itself; a plane p holds the places x with
+    // dot(p, x - eye) = 1.
+    struct Crease {
+        std::array<Vec3, 4> planes;
+        bool is_convex = false;  // the nearest plane is the wall; else the farthest
+    };
+
     float texel(int face, int column, int row) const;
     float& texel(int face, int column, int row);
+    std::size_t quad(int face, int column, int row) const;  // of four texels, by the first
     void fill_border();
+    Vec3 plane_of(const Texel& at) const;
+    void find_creases();
 
     DVec3 eye_;
     int face_px_;
     double farthest_ = 0.0;
     std::vector<float> inverse_depth_;  // axial; each face with a border of one texel round it
+    std::vector<Crease> creases_;
+    std::vector<std::uint32_t> crease_of_;  // each quad's, or kNone
 };
 
 /// A point of the surface as a node saw it.
