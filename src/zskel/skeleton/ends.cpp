@@ -1,9 +1,16 @@
 #include "zskel/skeleton/ends.h"
 
 #include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
 
 namespace zskel {
 namespace {
+
+constexpr std::size_t kRings = 4;  // of the cone that an end is aimed in,
+constexpr std::size_t kRingRays = 12;
+constexpr double kConeAngle = 0.25 * std::numbers::pi;
 
 class EndExtender {
   public:
@@ -74,6 +81,31 @@ class EndAimer {
     }
 
   private:
+    // From a place towards the centroid of what it sees in a cone ahead: an end that bends is
+    // followed, a straight one left as it is.
+    Vec3 towards_middle(const Vec3& from, const Vec3& ahead) const {
+        const DVec3 along(ahead);
+        const DVec3 helper = std::abs(along.x) < 0.8 ? DVec3(1, 0, 0) : DVec3(0, 1, 0);
+        const DVec3 across = glm::normalize(glm::cross(along, helper));
+        const DVec3 up = glm::cross(along, across);
+        std::array<Vec3, kRings * kRingRays> rays;
+        for (std::size_t i = 0; i < rays.size(); ++i) {
+            const double off = kConeAngle * (static_cast<double>(i / kRingRays) + 0.5) / kRings;
+            const double turn = 2.0 * std::numbers::pi * static_cast<double>(i) / kRingRays;
+            const DVec3 side = across * std::cos(turn) + up * std::sin(turn);
+            rays[i] = Vec3(along * std::cos(off) + side * std::sin(off));
+        }
+        std::array<float, rays.size()> ways{};
+        query_.free_ways(from, rays, ways);
+        DVec3 sum(0.0);
+        for (std::size_t i = 0; i < rays.size(); ++i) {
+            if (ways[i] >= SurfaceQuery::kFarthest) continue;  // out through an opening
+            const double off = glm::length(glm::cross(DVec3(rays[i]), along));
+            sum += DVec3(rays[i]) * (off * std::pow(static_cast<double>(ways[i]), 4));
+        }
+        return glm::length(sum) > 0.0 ? Vec3(glm::normalize(sum)) : ahead;
+    }
+
     void aim_end(std::uint32_t end) {
         const std::vector<std::uint32_t> path = graph_.branch_from(end, graph_.nodes[end].links[0]);
         const auto at = [&](std::size_t i) -> Vec3& { return graph_.nodes[path[i]].position; };
@@ -88,7 +120,7 @@ class EndAimer {
         std::size_t behind = base + 1;
         while (behind + 1 < path.size() && away(behind, base) < radius(base)) ++behind;
         if (behind >= path.size() || !(away(behind, base) > 0.0)) return;
-        const Vec3 ahead = glm::normalize(at(base) - at(behind));
+        const Vec3 ahead = towards_middle(at(base), glm::normalize(at(base) - at(behind)));
         const double now = away(base, 0);
         const auto way = static_cast<double>(query_.free_way(at(base), ahead));
         const double length = way - options_.tip_gap_radii * std::min(radius(base), way);

@@ -11,8 +11,9 @@ namespace zskel {
 std::size_t extend_ends(CurveGraph& graph, std::span<const Vec3> seed_points,
                         const SurfaceQuery& query, const RefineOptions& options);
 
-/// The last stretch of every branch with an end goes straight on from where the section is whole: a
-/// flat end is left through its middle, not at a corner.
+/// The last stretch of every branch with an end goes straight from where the section is whole to
+/// the middle of what lies ahead: a flat end is left through its middle, not at a corner, and an
+/// end that bends is followed.
 void aim_ends(CurveGraph& graph, const SurfaceQuery& query, const RefineOptions& options);
 
 }  // namespace zskel
