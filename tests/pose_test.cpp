@@ -325,6 +325,7 @@ TEST_CASE("read_pose: what is wrong is named, with its place") {
     refused(R"({"moves": [{"branch": -1}]})", "branch");
     refused(R"({"moves": [{"bone": "leg"}]})", "bone");
     refused(R"({"moves": [{"near": [1, 2]}]})", "three numbers");
+    refused(R"({"moves": [{"branch": 0, "begin": 1}]})", "turn, bend, twist or stretch");
     refused(R"({"moves": [{"branch": 0, "bend": 30}]})", "axis");
     refused(R"({"moves": [{"branch": 0, "bend": 30, "axis": [0, 0, 0]}]})", "a direction");
     refused(R"({"moves": [{"branch": 0, "bend": "x", "axis": [0, 0, 1]}]})", "bend");

@@ -185,8 +185,8 @@ void add_journal_options(CLI::App& command, Arguments& arguments) {
 }
 
 constexpr const char* kFooter =
-    R"(Exit codes: 0 when no item failed, 6 when one did; 130, 143 or 129 when stopped by a signal.
-What has not ended then is as if it had never begun: the same line goes on.
+    R"(0 when no item failed, 6 when one did. What has not ended when a signal stops it is as if it had
+never begun: the same line goes on.
 
 Examples:
   zskel batch scans/ -o 'out/{stem}.json'

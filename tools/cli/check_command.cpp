@@ -16,6 +16,8 @@ void add_check_command(CLI::App& app, const Common& common, Run& run) {
     auto arguments = std::make_shared<Arguments>();
     add_model_argument(*command, arguments->model);
     command->add_flag("--json", arguments->as_json, "Print JSON");
+    command->footer(
+        "Examples:\n  zskel check scan.ply\n  zskel check scan.ply --json > scan.check.json");
     command->callback([&run, &common, arguments] {
         run = [&common, arguments] {
             const MeshReport report = check_mesh(read_mesh(arguments->model, common.reading));

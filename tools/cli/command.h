@@ -3,6 +3,7 @@
 #include <CLI/CLI.hpp>
 #include <memory>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "run_limits.h"
@@ -56,9 +57,13 @@ CLI::Validator positive_length();
 CLI::Validator length_or_zero();
 
 /// Refuses outputs that cannot be meant, before any work is done. Empty names are left out.
-/// @throws UsageError when an output is the model or another output; IoError when the folder that
-/// it goes to is not there or cannot be written to.
+/// @throws UsageError when an output is the model or another output; IoError when it is a folder, or
+/// the folder that it goes to is not there or cannot be written to.
 void check_outputs(const std::string& model, const std::vector<std::string>& outputs);
+
+/// Refuses a file of another kind by its name. Standard output and devices take anything.
+/// @throws UsageError
+void check_extension(const std::string& path, std::string_view extension);
 
 /// Prints text to standard output. @throws IoError when that is closed or full.
 void print(const std::string& text);

@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <cmath>
 #include <cstring>
@@ -64,7 +65,10 @@ CLI::Validator length_or_zero() {
 
 void check_outputs(const std::string& model, const std::vector<std::string>& outputs) {
     std::vector<std::string> seen;
+    if (std::ranges::count(outputs, "-") > 1) throw UsageError("two outputs go to standard output");
     for (const std::string& path : outputs) {
+        std::error_code unknown;
+        if (fs::is_directory(path, unknown)) throw IoError(fmt::format("{}: is a folder", path));
         if (path.empty() || !is_file_to_be(path)) continue;
         if (model != "-" && is_same_file(path, model))
             throw UsageError(fmt::format("{}: the output would replace the model", path));
@@ -75,6 +79,11 @@ void check_outputs(const std::string& model, const std::vector<std::string>& out
         check_folder(path);
         seen.push_back(path);
     }
+}
+
+void check_extension(const std::string& path, std::string_view extension) {
+    if (!path.empty() && is_file_to_be(path) && !path.ends_with(extension))
+        throw UsageError(fmt::format("{}: what is written there is a {} file", path, extension));
 }
 
 CLI::Option* add_model_argument(CLI::App& command, std::string& model) {

@@ -197,6 +197,10 @@ void add_compare_command(CLI::App& app, const Common& common, Run& run) {
             [arguments](const std::string& name) { arguments->reference = parse_backend(name); },
             "The backend that is taken for the truth [ray]")
         ->type_name("NAME");
+    command->footer(
+        "Examples:\n  zskel compare horse.obj --backend cpu --eyes 300\n"
+        "  zskel compare horse.obj --backend osmesa --face-px 32 --json\n"
+        "  zskel compare horse.obj --method paper --backend gl");
     command->callback([&run, &common, arguments] {
         run = [&common, arguments] { return compare(*arguments, common); };
     });

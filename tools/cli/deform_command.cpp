@@ -194,6 +194,7 @@ ExitCode deform_model(const Arguments& given, const Common& common) {
     outputs.push_back(arguments.strip);
     check_outputs(arguments.model, outputs);
     check_outputs(arguments.pose, outputs);
+    check_extension(arguments.strip, ".png");
 
     const std::string pose_text =
         is_demo ? std::string(demo->pose) : read_input_file(arguments.pose, "a pose (JSON)");

@@ -123,6 +123,7 @@ void add_doctor_command(CLI::App& app, const Common&, Run& run) {
         app.add_subcommand("doctor", "Say which backends work here, and why others do not");
     auto as_json = std::make_shared<bool>(false);
     command->add_flag("--json", *as_json, "Print JSON");
+    command->footer("Examples:\n  zskel doctor\n  zskel doctor --json > machine.json");
     command->callback([&run, as_json] { run = [as_json] { return diagnose(*as_json); }; });
 }
 

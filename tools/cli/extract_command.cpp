@@ -125,6 +125,8 @@ ExitCode extract(const Arguments& given, const Common& common) {
     }
     check_outputs(arguments.model, {arguments.output.path, arguments.correspondence, arguments.maps,
                                     arguments.picture, arguments.picture_paths});
+    check_extension(arguments.picture, ".png");
+    check_extension(arguments.picture_paths, ".png");
     const Mesh mesh = read_mesh(arguments.model, common.reading);
     // A picture that cannot be drawn is known before the work starts, not after.
     std::unique_ptr<gl::Context> picture_context;

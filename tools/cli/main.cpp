@@ -19,11 +19,11 @@
 namespace zskel::cli {
 namespace {
 
-constexpr const char* kFooter = R"(Exit codes:
+constexpr const char* kExitCodes = R"(Exit codes:
   0 fine   1 internal error   2 usage   3 bad input   4 no usable backend   5 cannot write   6 a check failed
-  7 a limit reached
+  7 a limit reached   128 + N stopped by signal N)";
 
-Examples:
+constexpr const char* kExamples = R"(Examples:
   zskel extract models/horse.obj -o horse.json --picture horse.png
   zskel convert horse.json -o horse.swc
   zskel rig horse.obj -o horse.glb
@@ -104,7 +104,6 @@ int run_program(int argc, char** argv) {
     CLI::App app("zskel: curve skeletons of triangle meshes from visible repulsive force", "zskel");
     app.set_version_flag("--version", std::string("zskel ") + ZSKEL_VERSION);
     app.require_subcommand(1);
-    app.footer(kFooter);
     app.fallthrough();
     Common common;
     for (int i = 0; i < argc; ++i)
@@ -142,6 +141,9 @@ int run_program(int argc, char** argv) {
     add_depth_command(app, common, run);
     add_compare_command(app, common, run);
     add_doctor_command(app, common, run);
+    app.footer(fmt::format("{}\n\n{}", kExitCodes, kExamples));
+    for (CLI::App* command : app.get_subcommands({}))
+        command->footer(fmt::format("{}\n\n{}", kExitCodes, command->get_footer()));
     set_log(LogLevel::Warning, log_format_of(argc, argv));
     try {
         if (!parse_line(app, argc, argv)) return static_cast<int>(ExitCode::Ok);
@@ -164,7 +166,8 @@ int main(int argc, char** argv) {
     ::mallopt(M_MMAP_THRESHOLD, 1 << 30);
     ::mallopt(M_TRIM_THRESHOLD, 1 << 30);
     for (const int signal : {SIGINT, SIGTERM, SIGHUP}) zskel::cli::stop_cleanly_on(signal);
-    std::signal(SIGPIPE,
-                SIG_IGN);  // a closed pipe is then an error of the write, with its exit code
+    // A closed pipe and a file that may not grow are then errors of the write, with its exit code.
+    std::signal(SIGPIPE, SIG_IGN);
+    std::signal(SIGXFSZ, SIG_IGN);
     return zskel::cli::run_program(argc, argv);
 }

@@ -243,7 +243,7 @@ void add_match_command(CLI::App& app, const Common& common, Run& run) {
                         "takes it, and reads no skeletons");
     command->add_option("--neighbours", arguments->neighbours, "How many of the nearest to print")
         ->capture_default_str()
-        ->check(CLI::PositiveNumber);
+        ->check(CLI::Range(1, 1 << 30));
     command->add_option("--matrix", arguments->matrix, "Write all distances (CSV)");
     command->add_option("--dendrogram", arguments->dendrogram,
                         "Draw which shapes are near which, as a tree (SVG)");

@@ -14,6 +14,7 @@
 #include "zskel/io/json_place.h"
 #include "zskel/io/map_file.h"
 #include "zskel/io/output_file.h"
+#include "zskel/io/skeleton_formats.h"
 #include "zskel/io/write_mesh.h"
 #include "zskel/mesh/bounds.h"
 #include "zskel/mesh/make_mesh.h"
@@ -25,6 +26,8 @@ namespace zskel::cli {
 namespace {
 
 constexpr double kSeenWithin = 0.003;  // of the diagonal
+constexpr double kSamePlace = 1e-5;    // of the diagonal
+constexpr double kLeastSeen = 0.5;     // of a model that the maps are of
 constexpr std::array<int, 4> kTableSizes = {8, 16, 32, 64};
 constexpr std::array<std::size_t, 3> kTableThinnings = {1, 2, 4};
 
@@ -34,6 +37,7 @@ struct Arguments {
     std::string points;
     std::string original;
     int map_px = kDefaultMapPx;
+    bool has_map_px = false;  // given on the line
     RebuildOptions rebuild;
     bool table = false;
     bool as_json = false;
@@ -52,6 +56,18 @@ std::string maps_file_of(const std::string& path) {
     const JsonPlace maps = place.at("visibility_maps");
     if (!maps.value().is_string()) maps.fail("a file's name");
     return std::filesystem::path(path).parent_path() / maps.value().get<std::string>();
+}
+
+// A skeleton's maps lie at its nodes.
+void check_maps_of(const SkeletonGraph& graph, const VisibilityMaps& maps,
+                   const std::string& file) {
+    std::vector<DVec3> eyes;
+    for (const NodeMap& map : maps.nodes) eyes.push_back(map.eye);
+    const double tolerance = kSamePlace * box_of(eyes).diagonal();
+    bool is_same = maps.nodes.size() == graph.nodes.size();
+    for (std::size_t n = 0; is_same && n < eyes.size(); ++n)
+        is_same = glm::distance(eyes[n], graph.nodes[n].position) <= tolerance;
+    if (!is_same) throw InputError(fmt::format("{}: the maps of another skeleton", file));
 }
 
 // Ends and junctions, and of the nodes between them every so many.
@@ -137,7 +153,10 @@ ExitCode reconstruct(const Arguments& arguments, const Common& common) {
     BackendOptions backend = arguments.backend;
     if (from_maps) {
         const std::string file = from_json ? maps_file_of(arguments.input) : arguments.input;
+        if (arguments.has_map_px)
+            throw UsageError("--map-px goes with a model; maps have the texels that they have");
         maps = read_visibility_maps(read_input_file(file, "visibility maps"), file);
+        if (from_json) check_maps_of(read_skeleton(arguments.input).graph, maps, file);
         if (!arguments.original.empty()) original = read_mesh(arguments.original, common.reading);
     } else {
         if (!arguments.original.empty())
@@ -150,6 +169,10 @@ ExitCode reconstruct(const Arguments& arguments, const Common& common) {
     std::vector<Row> rows;
     if (!arguments.output.empty()) {
         const RebuiltMesh rebuilt = rebuild_surface(maps, arguments.rebuild);
+        if (rebuilt.triangles.empty()) {
+            throw UsageError(fmt::format("--voxel {}: no surface is left at that size",
+                                         arguments.rebuild.voxel_model));
+        }
         if (!arguments.points.empty()) {
             std::vector<DVec3> positions;
             std::vector<DVec3> normals;
@@ -162,7 +185,13 @@ ExitCode reconstruct(const Arguments& arguments, const Common& common) {
         }
         write_output_text(arguments.output, write_mesh_as(arguments.output, rebuilt.positions,
                                                           rebuilt.triangles, common.command));
-        if (original && !arguments.table) rows.push_back(measure(*original, maps, rebuilt));
+        if (original && !arguments.table) {
+            rows.push_back(measure(*original, maps, rebuilt));
+            if (rows.back().seen < kLeastSeen) {
+                log_warning("{}: the maps see {:.1f} % of it: are they of another model?",
+                            original->name, 100.0 * rows.back().seen);
+            }
+        }
     }
     if (arguments.table) {
         for (const int px : kTableSizes) {
@@ -212,7 +241,8 @@ void add_reconstruct_command(CLI::App& app, const Common& common, Run& run) {
         "Examples:\n  zskel reconstruct horse.obj -o rebuilt.ply\n"
         "  zskel extract horse.obj -o horse.json --keep-maps horse.maps\n"
         "  zskel reconstruct horse.json --original horse.obj -o rebuilt.ply");
-    command->callback([&run, &common, arguments] {
+    command->callback([&run, &common, command, arguments] {
+        arguments->has_map_px = command->count("--map-px") > 0;
         run = [&common, arguments] { return reconstruct(*arguments, common); };
     });
 }

@@ -79,6 +79,8 @@ void add_repair_command(CLI::App& app, const Common& common, Run& run) {
                       "Write the caps on openings too: the surface is then closed");
     command->add_flag("--json", arguments->as_json, "Print JSON");
     add_repair_options(*command, arguments->extract);
+    command->footer(
+        "Examples:\n  zskel repair scan.ply -o clean.ply\n  zskel repair scan.ply -o clean.obj -v");
     command->callback([&run, &common, arguments] {
         run = [&common, arguments] { return repair(*arguments, common); };
     });

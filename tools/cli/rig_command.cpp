@@ -17,6 +17,7 @@ struct Arguments {
 
 ExitCode rig(const Arguments& arguments, const Common& common) {
     check_outputs(arguments.model, {arguments.output});
+    check_extension(arguments.output, ".glb");
     const Mesh mesh = read_mesh(arguments.model, common.reading);
     const RiggedModel rig = rig_model(mesh, arguments.rig);
     write_output_text(arguments.output,

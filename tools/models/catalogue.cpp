@@ -19,10 +19,10 @@ Recipe recipe(const std::string& name, Shape (*shape)(), const Expected& expecte
 const std::vector<Recipe>& catalogue() {
     static const std::vector<Recipe> recipes = {
         recipe("mouse", shape_mouse, {.faces = 2000, .ends = 8}),
-        recipe("bull", shape_bull, {.faces = 2400, .ends = 10}),
-        recipe("octopus", shape_octopus, {.faces = 3000, .ends = 9}),
+        recipe("bull", shape_bull, {.faces = 2000, .ends = 10}),
+        recipe("octopus", shape_octopus, {.faces = 2100, .ends = 9}),
         recipe("cobra", shape_cobra, {.faces = 2000, .ends = 2}),
-        recipe("frog", shape_frog, {.faces = 3000, .ends = 13}),
+        recipe("frog", shape_frog, {.faces = 2000, .ends = 13}),
         recipe("hand", shape_hand, {.faces = 2000, .ends = 6}),
         recipe("horse", shape_horse, {.faces = 2000, .ends = 8}),
         recipe("horse_8k", shape_horse, {.faces = 8000, .ends = 8}, 8),

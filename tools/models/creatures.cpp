@@ -27,9 +27,9 @@ Shape shape_octopus() {
             return Ball(out * std::cos(angle), height, out * std::sin(angle), radius);
         };
         octopus.grow(fmt::format("arm {}", arm + 1),
-                     {at(0.10, 0.17, 0.0, 0.085), at(0.32, 0.09, 0.0, 0.072),
-                      at(0.58, 0.06, 0.2, 0.058), at(0.82, 0.07 + 0.3 * lift, 0.7, 0.046),
-                      at(0.98, 0.10 + lift, 1.2, 0.036), at(1.00, 0.16 + 2.0 * lift, 1.7, 0.026)},
+                     {at(0.10, 0.17, 0.0, 0.092), at(0.32, 0.09, 0.0, 0.082),
+                      at(0.58, 0.06, 0.2, 0.071), at(0.82, 0.07 + 0.3 * lift, 0.7, 0.061),
+                      at(0.98, 0.10 + lift, 1.2, 0.053), at(1.00, 0.16 + 2.0 * lift, 1.7, 0.045)},
                      {.blend = 0.06});
     }
     return octopus;

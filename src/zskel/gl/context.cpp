@@ -267,11 +267,9 @@ std::vector<Candidate> list_candidates(const ContextRequest& request,
                                        std::vector<FailedAttempt>& failed) {
     std::vector<Candidate> all;
     if (request.hardware || request.software) {
-        all = list_egl_devices(failed);
+        all = list_egl_candidates(failed);
         std::stable_sort(all.begin(), all.end(),
                          [](const Candidate& l, const Candidate& r) { return l.kind < r.kind; });
-        if (failed.empty())
-            all.push_back({ContextKind::EglSurfaceless, -1, "EGL surfaceless platform"});
     }
     all.push_back({ContextKind::Osmesa, -1, "OSMesa"});
     std::erase_if(all, [&](const Candidate& candidate) { return !wanted(request, candidate); });
@@ -309,7 +307,11 @@ void Context::release(std::string_view stage,
 
 std::unique_ptr<Context> open_context(const ContextRequest& request,
                                       std::vector<FailedAttempt>& failed) {
-    for (const Candidate& candidate : list_candidates(request, failed)) {
+    const std::size_t known = failed.size();
+    const std::vector<Candidate> candidates = list_candidates(request, failed);
+    for (std::size_t i = known; i < failed.size(); ++i)
+        log_info("{} cannot be used: {}", failed[i].candidate, failed[i].reason);
+    for (const Candidate& candidate : candidates) {
         try {
             auto context = std::make_unique<ThreadContext>(candidate);
             log_info("GL context: {}, {} ({:.0f} ms)", candidate.name, context->info().renderer,

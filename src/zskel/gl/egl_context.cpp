@@ -27,18 +27,18 @@ struct Egl {
     PFNEGLQUERYDEVICESEXTPROC query_devices = nullptr;
     PFNEGLQUERYDEVICESTRINGEXTPROC query_device_string = nullptr;
     PFNEGLGETPLATFORMDISPLAYEXTPROC get_platform_display = nullptr;
-    std::string missing;  // why this cannot be used; empty when it can
+    std::string missing;     // why this cannot be used; empty when it can
+    std::string no_devices;  // why no device can be listed; empty when they can
 };
 
 template <typename Function>
-void load(Egl& egl, void* library, Function& function, const char* name) {
+void load(Egl& egl, void* library, Function& function, const char* name, std::string& missing) {
     void* found = dlsym(library, name);
     if (found == nullptr && egl.get_proc_address != nullptr) {
         found = reinterpret_cast<void*>(egl.get_proc_address(name));
     }
     function = reinterpret_cast<Function>(found);
-    if (function == nullptr && egl.missing.empty())
-        egl.missing = fmt::format("libEGL has no {}", name);
+    if (function == nullptr && missing.empty()) missing = fmt::format("libEGL has no {}", name);
 }
 
 Egl load_egl() {
@@ -49,18 +49,21 @@ Egl load_egl() {
         egl.missing = fmt::format("{} (on Debian: apt-get install libegl1)", dlerror());
         return egl;
     }
-    load(egl, library, egl.get_proc_address, "eglGetProcAddress");
-    load(egl, library, egl.query_string, "eglQueryString");
-    load(egl, library, egl.get_error, "eglGetError");
-    load(egl, library, egl.initialize, "eglInitialize");
-    load(egl, library, egl.bind_api, "eglBindAPI");
-    load(egl, library, egl.choose_config, "eglChooseConfig");
-    load(egl, library, egl.create_context, "eglCreateContext");
-    load(egl, library, egl.make_current, "eglMakeCurrent");
-    load(egl, library, egl.destroy_context, "eglDestroyContext");
-    load(egl, library, egl.query_devices, "eglQueryDevicesEXT");
-    load(egl, library, egl.query_device_string, "eglQueryDeviceStringEXT");
-    load(egl, library, egl.get_platform_display, "eglGetPlatformDisplayEXT");
+    const auto need = [&](auto& function, const char* name) {
+        load(egl, library, function, name, egl.missing);
+    };
+    need(egl.get_proc_address, "eglGetProcAddress");
+    need(egl.query_string, "eglQueryString");
+    need(egl.get_error, "eglGetError");
+    need(egl.initialize, "eglInitialize");
+    need(egl.bind_api, "eglBindAPI");
+    need(egl.choose_config, "eglChooseConfig");
+    need(egl.create_context, "eglCreateContext");
+    need(egl.make_current, "eglMakeCurrent");
+    need(egl.destroy_context, "eglDestroyContext");
+    need(egl.get_platform_display, "eglGetPlatformDisplayEXT");
+    load(egl, library, egl.query_devices, "eglQueryDevicesEXT", egl.no_devices);
+    load(egl, library, egl.query_device_string, "eglQueryDeviceStringEXT", egl.no_devices);
     return egl;
 }
 
@@ -162,13 +165,18 @@ class EglContext : public NativeContext {
 
 }  // namespace
 
-std::vector<Candidate> list_egl_devices(std::vector<FailedAttempt>& failed) {
+std::vector<Candidate> list_egl_candidates(std::vector<FailedAttempt>& failed) {
     const Egl& egl = egl_api();
     if (!egl.missing.empty()) {
         failed.push_back({"EGL", egl.missing});
         return {};
     }
-    std::vector<Candidate> candidates;
+    std::vector<Candidate> candidates{
+        {ContextKind::EglSurfaceless, -1, "EGL surfaceless platform"}};
+    if (!egl.no_devices.empty()) {
+        failed.push_back({"EGL devices", egl.no_devices});
+        return candidates;
+    }
     int hardware = 0;
     int software = 0;
     for (EGLDeviceEXT device : query_devices(egl)) {

@@ -24,9 +24,9 @@ struct Candidate {
     std::string name;
 };
 
-/// Devices that EGL lists (nothing is initialised); empty without libEGL, with the reason in
-/// `failed`.
-std::vector<Candidate> list_egl_devices(std::vector<FailedAttempt>& failed);
+/// The surfaceless platform, and the devices that EGL lists (nothing is initialised); what cannot be
+/// had is in `failed` with the reason.
+std::vector<Candidate> list_egl_candidates(std::vector<FailedAttempt>& failed);
 
 /// Makes the candidate's context current on this thread. @throws GlError with the reason.
 std::unique_ptr<NativeContext> make_egl_context(const Candidate& candidate);

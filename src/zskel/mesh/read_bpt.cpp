@@ -17,7 +17,8 @@ std::int64_t read_count(TextCursor& text, std::string_view what, std::int64_t le
     if (!text.to_content()) text.fail(fmt::format("the file ends before {}", what));
     const std::int64_t value = text.integer(what);
     if (value < least || value > most)
-        text.fail(fmt::format("{} is {}; expected {} to {}", what, value, least, most));
+        text.fail(fmt::format("{} is {}; expected {}{}", what, value, least,
+                              most > least ? fmt::format(" to {}", most) : std::string()));
     return value;
 }
 

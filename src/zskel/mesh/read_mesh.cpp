@@ -60,6 +60,7 @@ MeshFormat format_of_content(std::string_view bytes, const std::string& name) {
     if (!word.empty() &&
         std::all_of(word.begin(), word.end(), [](char c) { return c >= '0' && c <= '9'; }))
         return MeshFormat::Bpt;
+    if (word.empty()) throw InputError(fmt::format("{}: there is nothing in it", name));
     throw InputError(
         fmt::format("{}: neither the name nor the content, which begins with {}, is that "
                     "of {}",

@@ -17,8 +17,8 @@ namespace {
 constexpr double kLeastStretch = 1e-3;
 constexpr double kLongest = 3600.0;
 constexpr std::array<const char*, 3> kTargets = {"branch", "bone", "near"};
-constexpr std::array<const char*, 7> kDone = {"turn", "bend",  "twist", "stretch",
-                                              "axis", "begin", "end"};
+constexpr std::array<const char*, 4> kMotions = {"turn", "bend", "twist", "stretch"};
+constexpr std::array<const char*, 3> kDetails = {"axis", "begin", "end"};
 
 std::vector<std::uint32_t> bones_of_branch(const Armature& armature, std::uint32_t branch) {
     std::vector<std::uint32_t> out;
@@ -68,13 +68,15 @@ Move read_move(const JsonPlace& entry, const Armature& armature) {
     if (targets != 1) entry.fail("a move with one of branch, bone and near");
     for (const auto& item : entry.value().items()) {
         const auto is_key = [&](const char* known) { return item.key() == known; };
-        if (std::none_of(kTargets.begin(), kTargets.end(), is_key) &&
-            std::none_of(kDone.begin(), kDone.end(), is_key))
+        if (std::ranges::none_of(kTargets, is_key) && std::ranges::none_of(kMotions, is_key) &&
+            std::ranges::none_of(kDetails, is_key))
             entry.fail("a move: it knows turn, bend, twist, stretch, axis, begin and end, not " +
                        zskel::quoted(item.key()));
     }
     Move move;
     move.bones = bones_meant(entry, armature);
+    if (std::ranges::none_of(kMotions, [&](const char* key) { return entry.has(key); }))
+        entry.fail("a move with turn, bend, twist or stretch");
     move.turn = radians_at(entry, "turn");
     move.bend = radians_at(entry, "bend");
     move.twist = radians_at(entry, "twist");
