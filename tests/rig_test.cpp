@@ -406,6 +406,8 @@ class PosedGlb {
         FAIL("no joint of this name: ", joint);
         return {};
     }
+    // Where the armature stands, which the file's numbers are counted from.
+    DVec3 base() const { return poses_[1].place; }
     double seconds(std::size_t key) const {
         return floats(file_["animations"][0]["samplers"][0]["input"], key, 1)[0];
     }
@@ -457,6 +459,20 @@ TEST_CASE("write_rig_glb: an animation takes joints where deform takes their bon
                       {"branch0.0", 0, 0, {1.2, 1, 0}, {2, 1.5, 0}, 0.1},
                       {"branch0.1", 1, 0, {2, 1.5, 0}, {2.5, 2, 0.5}, 0.1},
                       {"branch1.0", 0, 1, {1, 0.8, 0}, {1, 0, 0}, 0.1}};
+    Mesh mesh;
+    mesh.positions = {{1.3, 1.1, 0.2}, {2.2, 1.6, -0.1}, {1.1, 0.2, 0.1}};
+    mesh.triangles = {{0, 1, 2}};
+    DVec3 base(0.0);
+    SUBCASE("near the origin") {}
+    SUBCASE("far from it, where its own middle is the base") {
+        const DVec3 away(1e6, -3e5, 2e4);
+        for (DVec3& p : mesh.positions) p += away;
+        for (Bone& bone : armature.bones) {
+            bone.head += away;
+            bone.tail += away;
+        }
+        base = away + DVec3(1.65, 0.9, 0.05);
+    }
     Pose pose(3);
     pose[0].bones = {1, 2};
     pose[0].axis = {0, 0, 1};
@@ -471,25 +487,25 @@ TEST_CASE("write_rig_glb: an animation takes joints where deform takes their bon
     std::vector<RigKey> keys;
     for (const double seconds : {0.0, 0.6, 2.0})
         keys.push_back({seconds, bone_motions(armature, pose_at(pose, seconds))});
-    Mesh mesh;
-    mesh.positions = {{1.3, 1.1, 0.2}, {2.2, 1.6, -0.1}, {1.1, 0.2, 0.1}};
-    mesh.triangles = {{0, 1, 2}};
     const Weights weights = {{{1, 1.0f}}, {{2, 1.0f}}, {{3, 1.0f}}};
     const std::string bytes = write_rig_glb(mesh, armature, weights, keys, "a test");
     const std::array<const char*, 3> joints = {"branch0.0_stretch", "branch0.1_stretch",
                                                "branch1.0"};
     for (std::size_t k = 0; k < keys.size(); ++k) {
         const PosedGlb posed(bytes, k);
+        CHECK(glm::distance(posed.base(), base) < 0.1);
         CHECK(posed.seconds(k) == doctest::Approx(keys[k].seconds));
         const auto there =
             deform(mesh, armature, weights, keys[k].motions, Skinning::DualQuaternion);
         for (std::size_t v = 0; v < 3; ++v)
-            CHECK(glm::distance(posed.placed(joints[v], mesh.positions[v]), there[v]) < 1e-5);
+            CHECK(glm::distance(posed.placed(joints[v], mesh.positions[v] - posed.base()),
+                                there[v]) < 1e-5);
         // What ends the second bone.
         Mesh end;
         end.positions = {armature.bones[2].tail};
         const auto tail =
             deform(end, armature, {{{2, 1.0f}}}, keys[k].motions, Skinning::Linear).front();
-        CHECK(glm::distance(posed.placed("branch0.1_end", end.positions[0]), tail) < 1e-5);
+        CHECK(glm::distance(posed.placed("branch0.1_end", end.positions[0] - posed.base()), tail) <
+              1e-5);
     }
 }

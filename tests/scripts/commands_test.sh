@@ -1,10 +1,17 @@
 #!/usr/bin/env bash
-# commands_test.sh PROGRAM MODEL...: every command that takes a model does its work on each, or refuses it as bad input.
+# commands_test.sh PROGRAM [--two-parts] MODEL...: every command that takes a model does its work on each, or refuses it
+# as bad input; with --two-parts first on the first model twice in one file.
 set -euo pipefail
 zskel=$(readlink -f "$1")
+here=$(dirname "$(readlink -f "$0")")
 shift
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
+if [[ $1 == --two-parts ]]; then
+    shift
+    awk -f "$here/two_parts.awk" "$1" >"$work/two.obj"
+    set -- "$work/two.obj" "$@"
+fi
 failures=0
 
 # try NAME ARGUMENTS...

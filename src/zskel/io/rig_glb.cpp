@@ -10,11 +10,15 @@
 
 #include "zskel/core/error.h"
 #include "zskel/io/gltf_builder.h"
+#include "zskel/mesh/bounds.h"
 
 namespace zskel {
 namespace {
 
 using Json = GltfBuilder::Json;
+
+// Farther from the origin than so many diagonals 32-bit positions lose what a viewer shows.
+constexpr double kMostDiagonalsAway = 16.0;
 
 // Joints in the file's order: bones, ends, what stretches; each with what it hangs on. Its place at
 // rest is global; only what stretches is turned there, its x axis along the bone.
@@ -171,11 +175,18 @@ Json animation_of(GltfBuilder& builder, const Armature& armature, const Joints& 
     return animation.finish();
 }
 
-}  // namespace
+// What the file's numbers are counted from: zero, or the middle of a model that lies far from it.
+DVec3 base_of(const Mesh& mesh) {
+    const Box box = box_of(mesh.positions);
+    const DVec3 middle = 0.5 * (box.low + box.high);
+    return glm::length(middle) > kMostDiagonalsAway * box.diagonal() ? DVec3(glm::vec3(middle))
+                                                                     : DVec3(0.0);
+}
 
-std::string write_rig_glb(const Mesh& mesh, const Armature& armature,
-                          const std::vector<std::vector<Influence>>& weights,
-                          const std::vector<RigKey>& keys, const std::string& origin) {
+std::string write_about_origin(const Mesh& mesh, const Armature& armature,
+                               const std::vector<std::vector<Influence>>& weights,
+                               const std::vector<RigKey>& keys, const std::string& origin,
+                               const DVec3& base) {
     const Joints joints = joints_of(armature, keys);
     if (joints.all.size() > std::numeric_limits<std::uint16_t>::max()) {
         throw InputError(
@@ -218,6 +229,7 @@ std::string write_rig_glb(const Mesh& mesh, const Armature& armature,
         if (armature.bones[b].parent == kNone) hangers.push_back(kFirstJoint + b);
     }
     nodes.push_back({{"name", "armature"}, {"children", hangers}});
+    if (base != DVec3(0.0)) nodes.back()["translation"] = vector_of(base);
     for (Json& node : node_tree(joints.all, kFirstJoint)) nodes.push_back(std::move(node));
     Json numbers = Json::array();
     for (std::size_t j = 0; j < joints.all.size(); ++j) numbers.push_back(kFirstJoint + j);
@@ -232,6 +244,26 @@ std::string write_rig_glb(const Mesh& mesh, const Armature& armature,
     if (!keys.empty())
         document["animations"] = {animation_of(builder, armature, joints, keys, kFirstJoint)};
     return builder.finish(std::move(document), origin, GltfContainer::Binary);
+}
+
+}  // namespace
+
+std::string write_rig_glb(const Mesh& mesh, const Armature& armature,
+                          const std::vector<std::vector<Influence>>& weights,
+                          const std::vector<RigKey>& keys, const std::string& origin) {
+    const DVec3 base = base_of(mesh);
+    Mesh near_mesh = mesh;
+    for (DVec3& p : near_mesh.positions) p -= base;
+    Armature near_armature = armature;
+    for (Bone& bone : near_armature.bones) {
+        bone.head -= base;
+        bone.tail -= base;
+    }
+    std::vector<RigKey> near_keys = keys;
+    for (RigKey& key : near_keys) {
+        for (BoneMotion& motion : key.motions) motion.move += motion.turn * base - base;
+    }
+    return write_about_origin(near_mesh, near_armature, weights, near_keys, origin, base);
 }
 
 }  // namespace zskel

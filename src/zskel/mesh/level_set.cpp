@@ -11,6 +11,9 @@
 namespace zskel {
 namespace {
 
+// A crossing stays so far from an edge's ends, in shares of it, that no triangle is without area.
+constexpr double kOffCorner = 0.02;
+
 constexpr int kAcross = kLevelSetBlock + 1;  // corners of a block's cells
 constexpr float kUnknown = std::numeric_limits<float>::quiet_NaN();
 
@@ -111,7 +114,8 @@ class Mesher {
         if (is_new) {
             const auto va = static_cast<double>(values_[corner_in(low)]);
             const auto vb = static_cast<double>(values_[corner_in(low + axes)]);
-            mesh_.positions.push_back(DVec3(first_ + low) + DVec3(axes) * (va / (va - vb)));
+            const double share = std::clamp(va / (va - vb), kOffCorner, 1.0 - kOffCorner);
+            mesh_.positions.push_back(DVec3(first_ + low) + DVec3(axes) * share);
         }
         return entry->second;
     }

@@ -26,6 +26,9 @@ constexpr float kCreaseShare = 0.01f;
 // there is none.
 constexpr double kNearFootprints = 1.5;
 
+// So many of the nearest nodes that see a cube tell of it: the others' texels are wider there.
+constexpr std::size_t kMostMaps = 32;
+
 int face_of(const DVec3& direction) {
     const DVec3 size = glm::abs(direction);
     const int axis = size.x >= size.y && size.x >= size.z ? 0 : size.y >= size.z ? 1 : 2;
@@ -269,6 +272,16 @@ std::vector<std::uint32_t> Recall::maps_about(const DVec3& middle, double half_s
             out.push_back(m);
             break;
         }
+    }
+    if (out.size() > kMostMaps) {
+        const auto nearer = [&](std::uint32_t l, std::uint32_t r) {
+            const double of_l = glm::distance(maps_[l].eye(), middle);
+            const double of_r = glm::distance(maps_[r].eye(), middle);
+            return of_l != of_r ? of_l < of_r : l < r;
+        };
+        std::nth_element(out.begin(), out.begin() + kMostMaps, out.end(), nearer);
+        out.resize(kMostMaps);
+        std::sort(out.begin(), out.end());
     }
     return out;
 }

@@ -77,7 +77,7 @@ class Recall {
     /// @see Curless and Levoy 1996 (weighted signed distances of range images)
     double inside(const DVec3& place, const std::vector<std::uint32_t>& among) const;
 
-    /// The maps that could tell something of a cube about `middle`.
+    /// The maps that tell of a cube about `middle`: the nearest of those that see something of it.
     std::vector<std::uint32_t> maps_about(const DVec3& middle, double half_side) const;
 
     /// Every texel's point, in the order of the nodes.

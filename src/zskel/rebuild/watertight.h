@@ -19,7 +19,7 @@ struct RebuildOptions {
     double voxel_model = 0.0;
 };
 inline constexpr double kFewestVoxels = 200.0;
-inline constexpr double kMostVoxels = 600.0;
+inline constexpr double kMostVoxels = 300.0;
 
 /// The surface of what is recalled: watertight whatever the maps hold, since it bounds an inside.
 /// Sampled in cubes from the surfels on, as far as the surface goes.
