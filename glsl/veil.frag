@@ -4,8 +4,9 @@
 // its rim, with a line where it ends, bends or passes in front of itself.
 layout(binding = 0) uniform sampler2D surface;  // normal and facing cosine; 0 where there is none
 layout(binding = 1) uniform sampler2D depth;    // near / depth_axial: affine over any plane
+layout(binding = 2) uniform sampler2D tints;    // the surface's colour
 
-uniform vec3 tint;
+uniform vec3 ink;  // of lines
 uniform float line_px;
 uniform float strength;
 uniform float jump;  // relative step in depth that counts as an edge
@@ -35,6 +36,7 @@ void main() {
     float line = max(max(edge(at, ivec2(far, 0)), edge(at, ivec2(0, far))),
                      max(edge(at, ivec2(slant, slant)), edge(at, ivec2(slant, -slant))));
     vec4 here = texelFetch(surface, at, 0);
+    vec3 tint = texelFetch(tints, at, 0).rgb;
     vec3 shade = vec3(0.0);
     float alpha = 0.0;
     if (here.w > 0.0) {
@@ -42,7 +44,6 @@ void main() {
         shade = tint * (0.62 + 0.45 * light);
         alpha = mix(0.30, 0.75, pow(1.0 - here.w, 2.0));
     }
-    vec3 ink = tint * 0.38;
     float cover = 0.85 * line;
     color = strength * vec4(mix(shade * alpha, ink, cover), mix(alpha, 1.0, cover));  // premultiplied
 }

@@ -36,6 +36,8 @@ struct Arguments {
     std::string output;
     std::string points;
     std::string original;
+    std::string picture;
+    PictureOptions picture_options;
     int map_px = kDefaultMapPx;
     bool has_map_px = false;  // given on the line
     RebuildOptions rebuild;
@@ -98,13 +100,17 @@ struct Row {
     double hausdorff = 0.0;
 };
 
-Row measure(const Mesh& original, const VisibilityMaps& maps, const RebuiltMesh& rebuilt) {
-    const double diagonal = box_of(original.positions).diagonal();
+Mesh mesh_of(const RebuiltMesh& rebuilt) {
     Mesh mesh;
     mesh.name = "the rebuilt surface";
     mesh.positions = rebuilt.positions;
     mesh.triangles = rebuilt.triangles;
-    const SurfaceDistances distances = distances_between(original, mesh);
+    return mesh;
+}
+
+Row measure(const Mesh& original, const VisibilityMaps& maps, const RebuiltMesh& rebuilt) {
+    const double diagonal = box_of(original.positions).diagonal();
+    const SurfaceDistances distances = distances_between(original, mesh_of(rebuilt));
     return {maps.face_px,
             maps.nodes.size(),
             rebuilt.voxel / diagonal,
@@ -139,6 +145,29 @@ std::string json_of(const std::vector<Row>& rows) {
     return list.dump(1) + "\n";
 }
 
+// The original, every vertex the more orange the farther the rebuilt surface is from it, and blue
+// where no node sees it; the nodes inside.
+void draw_coverage(const Arguments& arguments, const Mesh& original, const VisibilityMaps& maps,
+                   const RebuiltMesh& rebuilt, gl::Context& context, const Common& common) {
+    const PreparedSurface prepared = prepare_surface(original);
+    std::vector<DVec3> places;
+    for (const Vec3& p : prepared.surface.positions)
+        places.push_back(prepared.surface.world_from_model.to_model(p));
+    const double limit = kSeenWithin * box_of(original.positions).diagonal();
+    const std::vector<char> is_seen = are_seen(places, maps, limit);
+    const std::vector<double> distances = distances_to(mesh_of(rebuilt), places);
+    std::vector<Vec3> tints;
+    for (std::size_t v = 0; v < places.size(); ++v) {
+        const auto off = static_cast<float>(std::min(distances[v] / limit, 1.0));
+        tints.push_back(is_seen[v] ? glm::mix(kModelColor, kEndColor, off) : kJunctionColor);
+    }
+    SkeletonGraph nodes;
+    for (const NodeMap& map : maps.nodes) nodes.nodes.push_back({.position = map.eye});
+    const Image image =
+        draw_skeleton(context, prepared.surface, nodes, arguments.picture_options, tints);
+    write_output_text(arguments.picture, encode_png(image, common.command));
+}
+
 ExitCode reconstruct(const Arguments& arguments, const Common& common) {
     if (arguments.output.empty() && !arguments.table)
         throw UsageError("give --output, or --table for measures alone");
@@ -146,7 +175,15 @@ ExitCode reconstruct(const Arguments& arguments, const Common& common) {
     const bool from_maps = from_json || arguments.input.ends_with(".maps");
     if (arguments.table && from_maps)
         throw UsageError("--table needs the model itself: it looks again with other maps");
-    check_outputs(arguments.input, {arguments.output, arguments.points});
+    check_outputs(arguments.input, {arguments.output, arguments.points, arguments.picture});
+    check_extension(arguments.picture, ".png");
+    std::unique_ptr<gl::Context> picture_context;
+    if (!arguments.picture.empty()) {
+        if (arguments.output.empty()) throw UsageError("--picture goes with --output");
+        if (from_maps && arguments.original.empty())
+            throw UsageError("--picture shows the model: with maps, give --original");
+        picture_context = open_picture_context();
+    }
     std::optional<Mesh> original;
     VisibilityMaps maps;
     SkeletonGraph graph;
@@ -185,6 +222,8 @@ ExitCode reconstruct(const Arguments& arguments, const Common& common) {
         }
         write_output_text(arguments.output, write_mesh_as(arguments.output, rebuilt.positions,
                                                           rebuilt.triangles, common.command));
+        if (picture_context)
+            draw_coverage(arguments, *original, maps, rebuilt, *picture_context, common);
         if (original && !arguments.table) {
             rows.push_back(measure(*original, maps, rebuilt));
             if (rows.back().seen < kLeastSeen) {
@@ -233,6 +272,10 @@ void add_reconstruct_command(CLI::App& app, const Common& common, Run& run) {
         ->check(length_or_zero());
     command->add_option("--original", arguments->original,
                         "With maps: the model to measure against");
+    command->add_option("--picture", arguments->picture,
+                        "Draw the model (PNG): orange where the rebuilt surface is 0.3 % of the "
+                        "diagonal off, blue where no node sees it");
+    add_view_option(*command, arguments->picture_options);
     command->add_flag("--table", arguments->table,
                       "Measure with maps of 8 to 64 texels, of all nodes and of fewer");
     command->add_flag("--json", arguments->as_json, "Print the measures as JSON");

@@ -62,6 +62,7 @@ namespace zskel::gl {
     X(PFNGLNAMEDBUFFERSTORAGEPROC, NamedBufferStorage)                   \
     X(PFNGLNAMEDBUFFERSUBDATAPROC, NamedBufferSubData)                   \
     X(PFNGLNAMEDFRAMEBUFFERDRAWBUFFERPROC, NamedFramebufferDrawBuffer)   \
+    X(PFNGLNAMEDFRAMEBUFFERDRAWBUFFERSPROC, NamedFramebufferDrawBuffers) \
     X(PFNGLNAMEDFRAMEBUFFERTEXTUREPROC, NamedFramebufferTexture)         \
     X(PFNGLPIXELSTOREIPROC, PixelStorei)                                 \
     X(PFNGLSHADERSOURCEPROC, ShaderSource)                               \

@@ -24,8 +24,8 @@ struct Candidate {
     std::string name;
 };
 
-/// The surfaceless platform, and the devices that EGL lists (nothing is initialised); what cannot be
-/// had is in `failed` with the reason.
+/// The surfaceless platform, and the devices that EGL lists (nothing is initialised); what cannot
+/// be had is in `failed` with the reason.
 std::vector<Candidate> list_egl_candidates(std::vector<FailedAttempt>& failed);
 
 /// Makes the candidate's context current on this thread. @throws GlError with the reason.

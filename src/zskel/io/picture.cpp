@@ -27,6 +27,7 @@ constexpr float kFarVeil = 0.45f;     // how much of the farthest layer is seen
 constexpr float kAboveVeil = 0.55f;   // how much the skeleton shows through the veil
 constexpr float kDepthJump = 0.004f;  // of the distance: a step that is drawn as a line
 constexpr float kLinePx = 0.9f;
+constexpr float kLineShade = 0.38f;  // of the model's colour
 
 // The GL side: made, used and destroyed on the context's thread.
 class Painter {
@@ -90,6 +91,7 @@ class Painter {
     static constexpr std::size_t kSurfaceDepth = 1;
     static constexpr std::size_t kColor = 2;
     static constexpr std::size_t kColorDepth = 3;
+    static constexpr std::size_t kTint = 4;  // beside kSurface
 
     void prepare_programs() {
         const gl::ShaderStage surface{GL_VERTEX_SHADER, "surface.vert", glsl::kSurfaceVert};
@@ -106,7 +108,7 @@ class Painter {
                                  &scene_.camera.view_from_world[0][0]);
         }
         set(capsule_, "near_plane", scene_.camera.near_plane);
-        set(veil_, "tint", kModelColor);
+        set(veil_, "ink", kLineShade * kModelColor);
         set(veil_, "jump", kDepthJump);
         set(veil_, "line_px",
             std::max(kLinePx * scene_.px_scale * static_cast<float>(samples_), 1.0f));
@@ -122,7 +124,7 @@ class Painter {
         }
         gl_.CreateVertexArrays(static_cast<GLsizei>(arrays_.size()), arrays_.data());
         gl_.VertexArrayVertexBuffer(arrays_[0], 0, buffers_[0], 0, sizeof(Corner));
-        for (const GLuint attribute : {0u, 1u}) {
+        for (const GLuint attribute : {0u, 1u, 2u}) {
             gl_.VertexArrayAttribFormat(arrays_[0], attribute, 3, GL_FLOAT, GL_FALSE,
                                         attribute * static_cast<GLuint>(sizeof(Vec3)));
             gl_.VertexArrayAttribBinding(arrays_[0], attribute, 0);
@@ -132,8 +134,8 @@ class Painter {
 
     void prepare_targets() {
         gl_.CreateTextures(GL_TEXTURE_2D, static_cast<GLsizei>(textures_.size()), textures_.data());
-        const std::array<GLenum, kColorDepth + 1> formats{GL_RGBA16F, GL_DEPTH_COMPONENT32F,
-                                                          GL_RGBA8, GL_DEPTH_COMPONENT32F};
+        const std::array<GLenum, kTint + 1> formats{GL_RGBA16F, GL_DEPTH_COMPONENT32F, GL_RGBA8,
+                                                    GL_DEPTH_COMPONENT32F, GL_RGBA8};
         for (std::size_t i = 0; i < textures_.size(); ++i) {
             gl_.TextureStorage2D(textures_[i], 1, formats[i], width_, height_);
         }
@@ -143,7 +145,11 @@ class Painter {
                                         0);
             gl_.NamedFramebufferTexture(framebuffers_[i], GL_DEPTH_ATTACHMENT, textures_[2 * i + 1],
                                         0);
-            gl_.NamedFramebufferDrawBuffer(framebuffers_[i], GL_COLOR_ATTACHMENT0);
+            if (i == 0)
+                gl_.NamedFramebufferTexture(framebuffers_[i], GL_COLOR_ATTACHMENT1,
+                                            textures_[kTint], 0);
+            constexpr std::array<GLenum, 2> kDrawn{GL_COLOR_ATTACHMENT0, GL_COLOR_ATTACHMENT1};
+            gl_.NamedFramebufferDrawBuffers(framebuffers_[i], i == 0 ? 2 : 1, kDrawn.data());
             gl::require_complete(gl_, framebuffers_[i], "a picture");
         }
     }
@@ -199,6 +205,7 @@ class Painter {
         gl_.UseProgram(veil_);
         gl_.BindTextureUnit(0, textures_[kSurface]);
         gl_.BindTextureUnit(1, textures_[kSurfaceDepth]);
+        gl_.BindTextureUnit(2, textures_[kTint]);
         gl_.BindVertexArray(arrays_[1]);
         gl_.DrawArrays(GL_TRIANGLES, 0, 3);
     }
@@ -214,7 +221,7 @@ class Painter {
     std::array<GLuint, 2> buffers_{};       // corners, capsules
     std::array<GLuint, 2> arrays_{};        // corners, nothing
     std::array<GLuint, 2> framebuffers_{};  // the surface's nearest layer, the picture
-    std::array<GLuint, 4> textures_{};      // kSurface ... kColorDepth
+    std::array<GLuint, 5> textures_{};      // kSurface ... kTint
 };
 
 // Averages samples x samples blocks of a band (rows upward) into the picture's rows (downward).
@@ -268,8 +275,8 @@ Image paint(gl::Context& context, const Scene& scene) {
 }  // namespace
 
 Image draw_skeleton(gl::Context& context, const Surface& surface, const SkeletonGraph& graph,
-                    const PictureOptions& options) {
-    return paint(context, skeleton_scene(surface, graph, options));
+                    const PictureOptions& options, std::span<const Vec3> tints) {
+    return paint(context, skeleton_scene(surface, graph, options, tints));
 }
 
 Image draw_strip(gl::Context& context, const std::vector<Frame>& frames,

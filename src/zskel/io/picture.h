@@ -28,9 +28,10 @@ inline constexpr Vec3 kModelColor{0.80f, 0.79f, 0.75f};
 
 /// The model translucent, the skeleton inside as tubes and balls.
 /// @param surface  world space; `graph` is in model space.
+/// @param tints    sRGB colours of the surface's vertices; empty: kModelColor all over.
 /// @throws GlError when a pass fails, UsageError for a size that cannot be drawn.
 Image draw_skeleton(gl::Context& context, const Surface& surface, const SkeletonGraph& graph,
-                    const PictureOptions& options);
+                    const PictureOptions& options, std::span<const Vec3> tints = {});
 
 /// One picture of a strip.
 struct Frame {

@@ -34,7 +34,7 @@ Capsule ball(const Vec3& at, float radius, const Vec3& color, float lift = 0.0f)
 }
 
 // Smooth shading, but flat where the surface has a crease.
-std::vector<Corner> corners_of(const Surface& surface) {
+std::vector<Corner> corners_of(const Surface& surface, std::span<const Vec3> tints) {
     std::vector<Corner> corners;
     corners.reserve(surface.triangles.size() * 3);
     for (std::size_t t = 0; t < surface.triangles.size(); ++t) {
@@ -43,16 +43,18 @@ std::vector<Corner> corners_of(const Surface& surface) {
             const std::uint32_t vertex = surface.triangles[t][k];
             const Vec3& smooth = surface.vertex_normals[vertex];
             const bool is_crease = glm::dot(smooth, flat) < kSmoothCosine && flat != Vec3(0.0f);
-            corners.push_back({surface.positions[vertex], is_crease ? flat : smooth});
+            corners.push_back({surface.positions[vertex], is_crease ? flat : smooth,
+                               tints.empty() ? kModelColor : tints[vertex]});
         }
     }
     return corners;
 }
 
-Scene make_scene(const Surface& surface, const Camera& camera, const PictureOptions& options) {
+Scene make_scene(const Surface& surface, const Camera& camera, const PictureOptions& options,
+                 std::span<const Vec3> tints = {}) {
     const float smaller = static_cast<float>(std::min(options.height_px, options.width_px * 3 / 4));
-    return {camera,           corners_of(surface), {},
-            options.width_px, options.height_px,   smaller / kReferencePx};
+    return {camera,           corners_of(surface, tints), {},
+            options.width_px, options.height_px,          smaller / kReferencePx};
 }
 
 // World radius of what is to be `px` pixels of the reference picture thick.
@@ -73,13 +75,13 @@ Camera scene_camera(const Surface& surface, const PictureOptions& options) {
 }
 
 Scene skeleton_scene(const Surface& surface, const SkeletonGraph& graph,
-                     const PictureOptions& options) {
-    return skeleton_scene(surface, graph, scene_camera(surface, options), options);
+                     const PictureOptions& options, std::span<const Vec3> tints) {
+    return skeleton_scene(surface, graph, scene_camera(surface, options), options, tints);
 }
 
 Scene skeleton_scene(const Surface& surface, const SkeletonGraph& graph, const Camera& camera,
-                     const PictureOptions& options) {
-    Scene scene = make_scene(surface, camera, options);
+                     const PictureOptions& options, std::span<const Vec3> tints) {
+    Scene scene = make_scene(surface, camera, options, tints);
     const auto place = [&](std::uint32_t node) {
         return surface.world_from_model.to_world(graph.nodes[node].position);
     };

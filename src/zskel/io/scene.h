@@ -20,10 +20,11 @@ struct Capsule {
     glm::vec4 color_b;
 };
 
-/// A triangle's corner with the normal it is shaded by.
+/// A triangle's corner with the normal it is shaded by, and its colour.
 struct Corner {
     Vec3 position;
     Vec3 normal;
+    Vec3 tint;
 };
 
 /// What a picture shows, ready to be drawn.
@@ -41,12 +42,13 @@ Camera scene_camera(const Surface& surface, const PictureOptions& options);
 
 /// The model with a skeleton (model space) in it. @throws UsageError for a size that cannot be
 /// drawn.
+/// @param tints  see draw_skeleton.
 Scene skeleton_scene(const Surface& surface, const SkeletonGraph& graph,
-                     const PictureOptions& options);
+                     const PictureOptions& options, std::span<const Vec3> tints = {});
 
 /// The model with a skeleton in it, seen by a camera that was aimed before.
 Scene skeleton_scene(const Surface& surface, const SkeletonGraph& graph, const Camera& camera,
-                     const PictureOptions& options);
+                     const PictureOptions& options, std::span<const Vec3> tints = {});
 
 /// The model with paths and nodes (world space) in it. @throws UsageError for a size that cannot be
 /// drawn.

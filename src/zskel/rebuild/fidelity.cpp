@@ -42,12 +42,12 @@ std::vector<DVec3> places_on(const Mesh& mesh) {
     return places;
 }
 
-// From evenly spread places of one surface to the nearest of the other.
-std::vector<double> distances_to(const Mesh& from, const Mesh& to) {
+}  // namespace
+
+std::vector<double> distances_to(const Mesh& to, const std::vector<DVec3>& places) {
     const PreparedSurface prepared = prepare_surface(to);
     const Similarity& world = prepared.surface.world_from_model;
     const SurfaceQuery query(prepared.surface);
-    const std::vector<DVec3> places = places_on(from);
     std::vector<double> out(places.size());
     parallel_for(places.size(), 256, [&](std::size_t begin, std::size_t end) {
         for (std::size_t i = begin; i < end; ++i)
@@ -56,11 +56,9 @@ std::vector<double> distances_to(const Mesh& from, const Mesh& to) {
     return out;
 }
 
-}  // namespace
-
-double share_seen(const Mesh& mesh, const VisibilityMaps& maps, double within) {
+std::vector<char> are_seen(const std::vector<DVec3>& places, const VisibilityMaps& maps,
+                           double within) {
     const Recall recall(maps);
-    const std::vector<DVec3> places = places_on(mesh);
     std::vector<char> is_seen(places.size(), 0);
     parallel_for(places.size(), 64, [&](std::size_t begin, std::size_t end) {
         for (std::size_t i = begin; i < end; ++i) {
@@ -70,13 +68,19 @@ double share_seen(const Mesh& mesh, const VisibilityMaps& maps, double within) {
                 });
         }
     });
+    return is_seen;
+}
+
+double share_seen(const Mesh& mesh, const VisibilityMaps& maps, double within) {
+    const std::vector<char> is_seen = are_seen(places_on(mesh), maps, within);
     return static_cast<double>(std::count(is_seen.begin(), is_seen.end(), 1)) /
-           static_cast<double>(places.size());
+           static_cast<double>(is_seen.size());
 }
 
 SurfaceDistances distances_between(const Mesh& a, const Mesh& b) {
     SurfaceDistances out;
-    for (const std::vector<double>& d : {distances_to(a, b), distances_to(b, a)}) {
+    for (const std::vector<double>& d :
+         {distances_to(b, places_on(a)), distances_to(a, places_on(b))}) {
         const double sum = std::accumulate(d.begin(), d.end(), 0.0);
         out.mean = std::max(out.mean, sum / static_cast<double>(d.size()));
         out.hausdorff = std::max(out.hausdorff, *std::max_element(d.begin(), d.end()));
