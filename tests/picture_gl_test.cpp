@@ -72,6 +72,23 @@ TEST_CASE("draw_skeleton: model, tubes, ends and junctions in their colours at t
     CHECK(*image.at(399, 299) == 255);
 }
 
+TEST_CASE("draw_skeleton: every vertex in the colour that it is given, skeleton and lines as ever") {
+    const auto context = open_picture_context();
+    const Sample sample;
+    std::vector<Vec3> tints;
+    for (const Vec3& p : sample.surface().positions)
+        tints.push_back(p.x < sample.world({13, 12, 10.5}).x ? Vec3(0.9f, 0.2f, 0.2f)
+                                                             : Vec3(0.2f, 0.2f, 0.9f));
+    const Image image = draw_skeleton(*context, sample.surface(), sample.graph, kSmall, tints);
+    const std::uint8_t* left = sample.pixel(image, {11.3, 13.3, 10.5});
+    const std::uint8_t* right = sample.pixel(image, {14.7, 13.7, 10.5});
+    CHECK(left[0] > left[2] + 25);
+    CHECK(right[2] > right[0] + 25);
+    CHECK(is_junction_color(sample.pixel(image, {13, 12, 10.5})));
+    CHECK(is_dark(sample.pixel(image, {12, 12, 10.5})));
+    CHECK(*image.at(0, 0) == 255);
+}
+
 TEST_CASE("draw_skeleton: the same picture twice has the same bytes") {
     const auto context = open_picture_context();
     const Sample sample;

@@ -93,6 +93,10 @@ case_rig() {
     [[ $(head -c 4 a.glb) == glTF ]] || fail "no GLB"
     run 0 rig cube.obj "${quick[@]}" -o -
     [[ $(head -c 4 out) == glTF ]] || fail "no GLB on standard output"
+    run 0 rig cube.obj "${quick[@]}" -o a.glb --picture bones.png --picture-width 400 --picture-height 300
+    is_png bones.png 400 300 || fail "no picture of the bones"
+    refused 2 '.png' rig cube.obj -o b.glb --picture bones.jpg
+    refused 2 '.glb' rig cube.obj -o b.fbx
     refused 2 '--output' rig cube.obj
     refused 2 'cube.obj' rig cube.obj -o ./cube.obj
     refused 2 '--max-bones' rig cube.obj -o b.glb --max-bones -1
@@ -101,7 +105,7 @@ case_rig() {
     refused 5 'nowhere' rig cube.obj -o nowhere/b.glb
     awk -f "$here/two_parts.awk" cube.obj >two.obj
     refused 2 '2 parts' rig two.obj "${quick[@]}" --max-bones 1 -o b.glb
-    [[ ! -e b.glb ]] || fail "a file is there"
+    [[ ! -e b.glb && ! -e b.fbx ]] || fail "a file is there"
 }
 
 case_deform() {
@@ -162,6 +166,18 @@ case_reconstruct() {
     run 0 reconstruct two.obj "${quick[@]}" --voxel 0.05 -o two.ply
     run 0 check two.ply
     grep -q ' 2 components' out || fail "two parts became others: $(head -n 1 out)"
+    run 0 reconstruct torus.json --original torus.obj --voxel 0.02 -o c.ply --picture c.png --picture-width 400 \
+        --picture-height 300
+    is_png c.png 400 300 || fail "no picture"
+    refused 2 '--original' reconstruct torus.json -o d.ply --picture d.png
+    refused 2 '--map-px' reconstruct torus.maps -o d.ply --map-px 16
+    refused 2 'no surface is left' reconstruct torus.maps -o d.ply --voxel 50
+    cp "$models/y.obj" y.obj
+    run 0 extract y.obj "${quick[@]}" -o y.json --keep-maps torus.maps.y
+    sed -i 's/torus.maps.y/torus.maps/' y.json
+    refused 3 'torus.maps: the maps of another skeleton' reconstruct y.json -o d.ply
+    run 0 reconstruct torus.maps --original y.obj --voxel 0.02 -o c.ply
+    grep -q 'are they of another model' err || fail "no warning of another model"
     refused 2 '--output' reconstruct torus.obj
     refused 2 '--table' reconstruct torus.maps --table
     refused 2 '--original' reconstruct torus.obj --original torus.obj -o d.ply
@@ -484,7 +500,6 @@ case_cannot_write() {
     label='a file size limit'
     (
         ulimit -f 1
-        trap '' XFSZ
         "$zskel" extract cube.obj "${fast[@]}" --with-paths -o readonly/a.json 2>err
     )
     cannot_write $?
@@ -495,6 +510,9 @@ case_cannot_write() {
     wait
     is_json read || fail "a named pipe does not get the whole of it"
     [[ -p pipe ]] || fail "the pipe was replaced"
+    refused 5 'is a folder' extract cube.obj -o .
+    refused 2 'standard output' extract cube.obj -o - --picture -
+    refused 2 '.png' extract cube.obj -o a.json --picture a.jpg
 }
 
 case_signals() {

@@ -52,6 +52,9 @@ void add_backend_options(CLI::App& command, BackendOptions& options);
 /// Adds --view to a subcommand.
 void add_view_option(CLI::App& command, PictureOptions& options);
 
+/// Adds --view, --picture-width and --picture-height to a subcommand.
+void add_picture_options(CLI::App& command, PictureOptions& options);
+
 /// Checks for lengths: finite, and above 0 or not below it.
 CLI::Validator positive_length();
 CLI::Validator length_or_zero();

@@ -129,6 +129,14 @@ void add_view_option(CLI::App& command, PictureOptions& options) {
         ->type_name("VIEW");
 }
 
+void add_picture_options(CLI::App& command, PictureOptions& options) {
+    add_view_option(command, options);
+    for (const auto& [name, px] : {std::pair{"--picture-width", &options.width_px},
+                                   std::pair{"--picture-height", &options.height_px}}) {
+        command.add_option(name, *px, "Pixels")->capture_default_str()->check(CLI::Range(16, 8192));
+    }
+}
+
 void print(const std::string& text) {
     write_output_text("-", text);
 }

@@ -210,13 +210,7 @@ void add_extract_command(CLI::App& app, const Common& common, Run& run) {
                         "Draw the skeleton in the translucent model (PNG)");
     command->add_option("--picture-paths", arguments->picture_paths,
                         "Draw the seeds' paths and the nodes (PNG; the paper's Figure 3)");
-    add_view_option(*command, arguments->picture_options);
-    command->add_option("--picture-width", arguments->picture_options.width_px, "Pixels")
-        ->capture_default_str()
-        ->check(CLI::Range(16, 8192));
-    command->add_option("--picture-height", arguments->picture_options.height_px, "Pixels")
-        ->capture_default_str()
-        ->check(CLI::Range(16, 8192));
+    add_picture_options(*command, arguments->picture_options);
     command->footer(
         "Examples:\n  zskel extract horse.obj -o horse.json --picture horse.png\n"
         "  zskel extract horse.obj --method paper --backend ray --rays 197 --stats -o horse.json\n"

@@ -275,7 +275,7 @@ void add_reconstruct_command(CLI::App& app, const Common& common, Run& run) {
     command->add_option("--picture", arguments->picture,
                         "Draw the model (PNG): orange where the rebuilt surface is 0.3 % of the "
                         "diagonal off, blue where no node sees it");
-    add_view_option(*command, arguments->picture_options);
+    add_picture_options(*command, arguments->picture_options);
     command->add_flag("--table", arguments->table,
                       "Measure with maps of 8 to 64 texels, of all nodes and of fewer");
     command->add_flag("--json", arguments->as_json, "Print the measures as JSON");

@@ -88,7 +88,7 @@ void add_rig_command(CLI::App& app, const Common& common, Run& run) {
     command->add_option("--picture", arguments->picture,
                         "Draw the bones in the model, every vertex in the colours of its bones "
                         "(PNG)");
-    add_view_option(*command, arguments->picture_options);
+    add_picture_options(*command, arguments->picture_options);
     add_rig_options(*command, arguments->rig);
     command->footer(
         "Examples:\n  zskel rig horse.obj -o horse.glb --picture horse_bones.png\n"
