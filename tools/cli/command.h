@@ -60,8 +60,8 @@ CLI::Validator positive_length();
 CLI::Validator length_or_zero();
 
 /// Refuses outputs that cannot be meant, before any work is done. Empty names are left out.
-/// @throws UsageError when an output is the model or another output; IoError when it is a folder, or
-/// the folder that it goes to is not there or cannot be written to.
+/// @throws UsageError when an output is the model or another output; IoError when it is a folder,
+/// or the folder that it goes to is not there or cannot be written to.
 void check_outputs(const std::string& model, const std::vector<std::string>& outputs);
 
 /// Refuses a file of another kind by its name. Standard output and devices take anything.

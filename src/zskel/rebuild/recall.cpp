@@ -80,7 +80,8 @@ float& RecallMap::texel(int face, int column, int row) {
 
 std::size_t RecallMap::quad(int face, int column, int row) const {
     const int side = face_px_ + 1;
-    return static_cast<std::size_t>((face * side + row + 1) * side + column + 1);
+    const int at = (face * side + row + 1) * side + column + 1;
+    return static_cast<std::size_t>(at);
 }
 
 // From the faces beside: half a texel over a face's edge lies half a texel within the next one.
@@ -154,9 +155,10 @@ Vec3 RecallMap::plane_of(const Texel& at) const {
 
 void RecallMap::find_creases() {
     const int px = face_px_;
-    std::vector<Vec3> planes(static_cast<std::size_t>(6 * px * px));
+    const auto side = static_cast<std::size_t>(px);
+    std::vector<Vec3> planes(6 * side * side);
     for (std::size_t i = 0; i < planes.size(); ++i) planes[i] = plane_of(texel_at(i, px));
-    crease_of_.assign(static_cast<std::size_t>(6 * (px + 1) * (px + 1)), kNone);
+    crease_of_.assign(quad(5, px - 1, px - 1) + 1, kNone);
     const auto direction_of = [&](int face, int column, int row) {
         return from_face({(2.0 * column + 1.0) / px - 1.0, (2.0 * row + 1.0) / px - 1.0, 1.0},
                          face);

@@ -90,7 +90,8 @@ class EndAimer {
         const DVec3 up = glm::cross(along, across);
         std::array<Vec3, kRings * kRingRays> rays;
         for (std::size_t i = 0; i < rays.size(); ++i) {
-            const double off = kConeAngle * (static_cast<double>(i / kRingRays) + 0.5) / kRings;
+            const std::size_t ring = i / kRingRays;
+            const double off = kConeAngle * (static_cast<double>(ring) + 0.5) / kRings;
             const double turn = 2.0 * std::numbers::pi * static_cast<double>(i) / kRingRays;
             const DVec3 side = across * std::cos(turn) + up * std::sin(turn);
             rays[i] = Vec3(along * std::cos(off) + side * std::sin(off));
