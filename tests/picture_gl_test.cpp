@@ -72,7 +72,8 @@ TEST_CASE("draw_skeleton: model, tubes, ends and junctions in their colours at t
     CHECK(*image.at(399, 299) == 255);
 }
 
-TEST_CASE("draw_skeleton: every vertex in the colour that it is given, skeleton and lines as ever") {
+TEST_CASE(
+    "draw_skeleton: every vertex in the colour that it is given, skeleton and lines as ever") {
     const auto context = open_picture_context();
     const Sample sample;
     std::vector<Vec3> tints;
