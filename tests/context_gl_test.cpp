@@ -3,10 +3,13 @@
 #include <algorithm>
 #include <thread>
 
+#include "support/shapes.h"
 #include "zskel/core/error.h"
 #include "zskel/gl/api.h"
 #include "zskel/gl/context.h"
 #include "zskel/gl/program.h"
+#include "zskel/io/picture.h"
+#include "zskel/mesh/surface.h"
 #include "zskel/visibility/backend.h"
 
 using namespace zskel;
@@ -65,6 +68,26 @@ TEST_CASE(
     CHECK_THROWS_WITH_AS(context->run("a bad pass", [](const gl::Api& gl) { gl.Enable(0x1); }),
                          doctest::Contains("a bad pass failed with GL_INVALID_ENUM"), GlError);
     CHECK_NOTHROW(context->run("a good pass", [](const gl::Api& gl) { gl.Finish(); }));
+}
+
+TEST_CASE("Context: out of memory is an error with its stage, and what fits is drawn after it") {
+    const auto context = any_context();
+    const auto layers_of_two_terabytes = [](const gl::Api& gl) {
+        GLint side = 0;
+        GLint layers = 0;
+        gl.GetIntegerv(GL_MAX_TEXTURE_SIZE, &side);
+        gl.GetIntegerv(GL_MAX_ARRAY_TEXTURE_LAYERS, &layers);
+        GLuint texture = 0;
+        gl.CreateTextures(GL_TEXTURE_2D_ARRAY, 1, &texture);
+        gl.TextureStorage3D(texture, 1, GL_RGBA32F, side, side, layers);
+        gl.DeleteTextures(1, &texture);
+    };
+    CHECK_THROWS_WITH_AS(context->run("a vast target", layers_of_two_terabytes),
+                         doctest::Contains("a vast target failed with GL_OUT_OF_MEMORY"), GlError);
+    const PreparedSurface ball = prepare_surface(test::sphere(1.0, 2));
+    const Image image = draw_skeleton(*context, ball.surface, {}, {64, 48, std::nullopt});
+    CHECK(*image.at(32, 24) < 250);
+    CHECK(*image.at(0, 0) == 255);
 }
 
 TEST_CASE("Context: what the work throws comes back, from any thread") {

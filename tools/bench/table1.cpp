@@ -84,7 +84,7 @@ void print_model(const std::string& path, Backend& backend) {
         settled = settle_seeds(*source, subject.seeds, PaperStepOptions{});
     });
     fmt::print("{:<28} {:>6} {:>6} {:>8.2f} {:>7} |",
-               path.substr(path.size() > 28 ? path.size() - 28 : 0), surface.triangles.size(),
+               std::filesystem::path(path).filename().string(), surface.triangles.size(),
                surface.positions.size(), seconds, evaluations_of(settled));
     for (const double range : kRanges) {
         const Clusters clusters = cluster_minima(ends_of(settled), surface.edges, {range});

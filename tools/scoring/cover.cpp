@@ -8,8 +8,8 @@
 #include <cmath>
 #include <numbers>
 
-#include "scoring/frame.h"
 #include "scoring/numbers.h"
+#include "zskel/core/across.h"
 #include "zskel/core/parallel.h"
 
 namespace zskel::scoring {
@@ -43,15 +43,14 @@ DVec3 point_in(const Surface& surface, std::size_t t, std::size_t number) {
 }
 
 std::optional<double> half_thickness(const Subject& subject, const SurfacePoint& point) {
-    const Frame frame(point.inward);
+    const Across frame(point.inward);
     const double golden = std::numbers::pi * (3.0 - std::sqrt(5.0));
     const DVec3 start = point.position + point.inward * kLift;
     std::vector<double> lengths;
     for (int i = 0; i < kConeRays; ++i) {
         const double ahead = 1.0 - (1.0 - std::cos(kConeAngle)) * (i + 0.5) / kConeRays;
         const double aside = std::sqrt(1.0 - ahead * ahead);
-        const auto length =
-            subject.ray(start, point.inward * ahead + frame.across(i * golden) * aside);
+        const auto length = subject.ray(start, point.inward * ahead + frame.at(i * golden) * aside);
         if (length) lengths.push_back(*length);
     }
     if (lengths.empty()) return std::nullopt;

@@ -5,8 +5,8 @@
 #include <cmath>
 #include <numbers>
 
-#include "scoring/frame.h"
 #include "scoring/numbers.h"
+#include "zskel/core/across.h"
 #include "zskel/core/parallel.h"
 
 namespace zskel::scoring {
@@ -37,11 +37,11 @@ std::vector<Station> stations_along(const SkeletonGraph& graph, const Branch& br
 }
 
 double off_centre_at(const Subject& subject, const Station& station) {
-    const Frame frame(station.direction);
+    const Across frame(station.direction);
     std::array<double, kRays> rays{};
     for (std::size_t i = 0; i < kRays; ++i) {
         const double angle = 2.0 * std::numbers::pi * static_cast<double>(i) / kRays;
-        rays[i] = subject.ray(station.sample.position, frame.across(angle)).value_or(1.0);
+        rays[i] = subject.ray(station.sample.position, frame.at(angle)).value_or(1.0);
     }
     const double longest = kLongestRay * *median({rays.begin(), rays.end()});
     double sum = 0.0;

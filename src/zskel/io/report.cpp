@@ -49,8 +49,11 @@ Json json_of(const std::vector<T>& items) {
 }
 
 std::string box_text(const Box& box) {
-    return fmt::format("[{:.9g} {:.9g} {:.9g}] to [{:.9g} {:.9g} {:.9g}]", box.low.x, box.low.y,
-                       box.low.z, box.high.x, box.high.y, box.high.z);
+    // No zero with a sign.
+    const DVec3 low = box.low + 0.0;
+    const DVec3 high = box.high + 0.0;
+    return fmt::format("[{:.9g} {:.9g} {:.9g}] to [{:.9g} {:.9g} {:.9g}]", low.x, low.y, low.z,
+                       high.x, high.y, high.z);
 }
 
 template <typename T>

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "zskel/core/across.h"
+
 namespace zskel {
 namespace {
 
@@ -85,16 +87,13 @@ class EndAimer {
     // followed, a straight one left as it is.
     Vec3 towards_middle(const Vec3& from, const Vec3& ahead) const {
         const DVec3 along(ahead);
-        const DVec3 helper = std::abs(along.x) < 0.8 ? DVec3(1, 0, 0) : DVec3(0, 1, 0);
-        const DVec3 across = glm::normalize(glm::cross(along, helper));
-        const DVec3 up = glm::cross(along, across);
+        const Across across(along);
         std::array<Vec3, kRings * kRingRays> rays;
         for (std::size_t i = 0; i < rays.size(); ++i) {
             const std::size_t ring = i / kRingRays;
             const double off = kConeAngle * (static_cast<double>(ring) + 0.5) / kRings;
             const double turn = 2.0 * std::numbers::pi * static_cast<double>(i) / kRingRays;
-            const DVec3 side = across * std::cos(turn) + up * std::sin(turn);
-            rays[i] = Vec3(along * std::cos(off) + side * std::sin(off));
+            rays[i] = Vec3(along * std::cos(off) + across.at(turn) * std::sin(off));
         }
         std::array<float, rays.size()> ways{};
         query_.free_ways(from, rays, ways);

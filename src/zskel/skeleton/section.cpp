@@ -5,6 +5,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "zskel/core/across.h"
+
 namespace zskel {
 namespace {
 
@@ -15,14 +17,13 @@ constexpr double kMostMedians = 3.0;
 
 Vec3 step_to_section_centre(const SurfaceQuery& query, const Vec3& point, const Vec3& tangent) {
     const DVec3 along(tangent);
-    const DVec3 helper = std::abs(along.x) < 0.8 ? DVec3(1, 0, 0) : DVec3(0, 1, 0);
-    const DVec3 across = glm::normalize(glm::cross(along, helper));
-    const DVec3 up = glm::cross(along, across);
+    const Across section(along);
+    const auto& [across, up] = section;
     std::array<DVec3, kPairs> directions;
     std::array<Vec3, 2 * kPairs> rays;
     for (std::size_t i = 0; i < kPairs; ++i) {
         const double angle = std::numbers::pi * static_cast<double>(i) / kPairs;
-        directions[i] = across * std::cos(angle) + up * std::sin(angle);
+        directions[i] = section.at(angle);
         rays[i] = Vec3(directions[i]);
         rays[i + kPairs] = -rays[i];
     }
