@@ -22,6 +22,8 @@ constexpr float kMostDepthRatio = 1.5f;
 // Smooth walls stay below, h^2 D / 2 R for texels of width h = 1/16, walls at D and radii R > D
 // / 5.
 constexpr float kCreaseShare = 0.01f;
+// What is extrapolated past a face's last texels is at least this share of the least of them.
+constexpr double kLeastBeyond = 0.9;
 // Within so many texels of a plane a sighting tells where the surface is; farther before it, that
 // there is none.
 constexpr double kNearFootprints = 1.5;
@@ -104,7 +106,11 @@ void RecallMap::fill_border() {
         const double inverse =
             (1.0 - fy) * ((1.0 - fx) * texel(other, i, j) + fx * texel(other, i + 1, j)) +
             fy * ((1.0 - fx) * texel(other, i, j + 1) + fx * texel(other, i + 1, j + 1));
-        texel(face, column, row) = static_cast<float>(inverse * local.z);
+        // Beyond the last texel by a little: where depths jump there, not out to infinity.
+        const double least = std::min({texel(other, i, j), texel(other, i + 1, j),
+                                       texel(other, i, j + 1), texel(other, i + 1, j + 1)});
+        texel(face, column, row) =
+            static_cast<float>(std::max(inverse, kLeastBeyond * least) * local.z);
     };
     for (int face = 0; face < 6; ++face) {
         for (int i = 0; i < face_px_; ++i) {
@@ -198,6 +204,20 @@ void RecallMap::find_creases() {
     }
 }
 
+// The plane on the direction's side of the quad's crease; none where there is no crease, or where
+// the planes would lie behind all that the quad's texels see: an edge that points at the eye lies
+// before them, one that points away not far behind.
+const Vec3* RecallMap::beside_crease(std::size_t quad, const DVec3& direction,
+                                     double farthest) const {
+    const std::uint32_t number = crease_of_[quad];
+    if (number == kNone) return nullptr;
+    const auto& [planes, is_convex] = creases_[number];
+    const auto ahead = [&](const Vec3& p) { return glm::dot(DVec3(p), direction); };
+    const auto [far, near] = std::ranges::minmax_element(planes, {}, ahead);
+    const Vec3* plane = is_convex ? &*near : &*far;
+    return ahead(*plane) * (is_convex ? kMostDepthRatio : 1.0) >= farthest ? plane : nullptr;
+}
+
 Sighting RecallMap::look_at(const DVec3& place) const {
     const DVec3 direction = place - eye_;
     if (direction == DVec3(0.0)) return {farthest_, 0.0, DVec3(0.0)};
@@ -217,12 +237,9 @@ Sighting RecallMap::look_at(const DVec3& place) const {
     const float least = std::min({q00, q10, q01, q11});
     // a X + b Y + c Z = 1 in the face's axes.
     DVec3 plane(0.0, 0.0, most);
-    const std::uint32_t crease = crease_of_[quad(face, i, j)];
-    if (crease != kNone) {
-        const auto& [planes, is_convex] = creases_[crease];
-        const auto ahead = [&](const Vec3& p) { return glm::dot(DVec3(p), direction); };
-        const auto [far, near] = std::ranges::minmax_element(planes, {}, ahead);
-        plane = in_face(DVec3(is_convex ? *near : *far), face);
+    const Vec3* beside = beside_crease(quad(face, i, j), direction, least * depth);
+    if (beside != nullptr) {
+        plane = in_face(DVec3(*beside), face);
     } else if (most <= least * kMostDepthRatio) {
         const double fx = x - i;
         const double fy = y - j;

@@ -43,6 +43,7 @@ class RecallMap {
     void fill_border();
     Vec3 plane_of(const Texel& at) const;
     void find_creases();
+    const Vec3* beside_crease(std::size_t quad, const DVec3& direction, double farthest) const;
 
     DVec3 eye_;
     int face_px_;
