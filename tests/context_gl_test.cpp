@@ -72,7 +72,7 @@ TEST_CASE(
 
 TEST_CASE("Context: out of memory is an error with its stage, and what fits is drawn after it") {
     const auto context = any_context();
-    const auto layers_of_two_terabytes = [](const gl::Api& gl) {
+    const auto layers_of_terabytes = [](const gl::Api& gl) {
         GLint side = 0;
         GLint layers = 0;
         gl.GetIntegerv(GL_MAX_TEXTURE_SIZE, &side);
@@ -82,7 +82,7 @@ TEST_CASE("Context: out of memory is an error with its stage, and what fits is d
         gl.TextureStorage3D(texture, 1, GL_RGBA32F, side, side, layers);
         gl.DeleteTextures(1, &texture);
     };
-    CHECK_THROWS_WITH_AS(context->run("a vast target", layers_of_two_terabytes),
+    CHECK_THROWS_WITH_AS(context->run("a vast target", layers_of_terabytes),
                          doctest::Contains("a vast target failed with GL_OUT_OF_MEMORY"), GlError);
     const PreparedSurface ball = prepare_surface(test::sphere(1.0, 2));
     const Image image = draw_skeleton(*context, ball.surface, {}, {64, 48, std::nullopt});

@@ -179,8 +179,7 @@ Json animation_of(GltfBuilder& builder, const Armature& armature, const Joints& 
 DVec3 base_of(const Mesh& mesh) {
     const Box box = box_of(mesh.positions);
     const DVec3 middle = 0.5 * (box.low + box.high);
-    return glm::length(middle) > kMostDiagonalsAway * box.diagonal() ? DVec3(glm::vec3(middle))
-                                                                     : DVec3(0.0);
+    return glm::length(middle) > kMostDiagonalsAway * box.diagonal() ? middle : DVec3(0.0);
 }
 
 std::string write_about_origin(const Mesh& mesh, const Armature& armature,
@@ -229,7 +228,7 @@ std::string write_about_origin(const Mesh& mesh, const Armature& armature,
         if (armature.bones[b].parent == kNone) hangers.push_back(kFirstJoint + b);
     }
     nodes.push_back({{"name", "armature"}, {"children", hangers}});
-    if (base != DVec3(0.0)) nodes.back()["translation"] = vector_of(base);
+    if (base != DVec3(0.0)) nodes.back()["translation"] = {base.x, base.y, base.z};
     for (Json& node : node_tree(joints.all, kFirstJoint)) nodes.push_back(std::move(node));
     Json numbers = Json::array();
     for (std::size_t j = 0; j < joints.all.size(); ++j) numbers.push_back(kFirstJoint + j);
@@ -252,6 +251,7 @@ std::string write_rig_glb(const Mesh& mesh, const Armature& armature,
                           const std::vector<std::vector<Influence>>& weights,
                           const std::vector<RigKey>& keys, const std::string& origin) {
     const DVec3 base = base_of(mesh);
+    if (base == DVec3(0.0)) return write_about_origin(mesh, armature, weights, keys, origin, base);
     Mesh near_mesh = mesh;
     for (DVec3& p : near_mesh.positions) p -= base;
     Armature near_armature = armature;

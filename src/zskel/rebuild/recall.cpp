@@ -90,8 +90,7 @@ std::size_t RecallMap::quad(int face, int column, int row) const {
 void RecallMap::fill_border() {
     const double px = face_px_;
     const auto fill = [&](int face, int column, int row) {
-        const DVec3 direction =
-            from_face({(2 * column + 1) / px - 1.0, (2 * row + 1) / px - 1.0, 1.0}, face);
+        const DVec3 direction = texel_direction({face, column, row}, face_px_);
         const int other = face_of(direction);
         const DVec3 local = in_face(direction, other);
         const auto place = [&](double share) {
@@ -165,43 +164,47 @@ void RecallMap::find_creases() {
     std::vector<Vec3> planes(6 * side * side);
     for (std::size_t i = 0; i < planes.size(); ++i) planes[i] = plane_of(texel_at(i, px));
     crease_of_.assign(quad(5, px - 1, px - 1) + 1, kNone);
-    const auto direction_of = [&](int face, int column, int row) {
-        return from_face({(2.0 * column + 1.0) / px - 1.0, (2.0 * row + 1.0) / px - 1.0, 1.0},
-                         face);
-    };
     for (int face = 0; face < 6; ++face) {
         for (int row = -1; row < px; ++row) {
             for (int column = -1; column < px; ++column) {
-                Crease crease;
-                std::array<Vec3, 4> along{};
-                std::array<float, 4> inverse{};
-                for (int k = 0; k < 4; ++k) {
-                    const DVec3 direction = direction_of(face, column + k % 2, row + k / 2);
-                    const std::size_t seen_by = texel_index(texel_of_direction(direction, px), px);
-                    crease.planes[k] = planes[seen_by];
-                    along[k] = Vec3(direction);
-                    inverse[k] = texel(face, column + k % 2, row + k / 2);
-                }
-                const auto [least, most] = std::minmax_element(inverse.begin(), inverse.end());
-                if (*most > *least * kMostDepthRatio) continue;
-                float below = 0.0f;
-                float above = 0.0f;
-                for (int k = 0; k < 4; ++k) {
-                    for (int l = 0; l < 4; ++l) {
-                        const float past = glm::dot(crease.planes[k], along[l]) - inverse[l];
-                        below = std::max(below, -past / inverse[l]);
-                        above = std::max(above, past / inverse[l]);
-                    }
-                }
-                if (std::max(below, above) < kCreaseShare) continue;
-                // Planes that pass one another's texels on both sides do not meet here.
-                if (std::min(below, above) > 0.5f * kCreaseShare) continue;
-                crease.is_convex = below > above;
+                const std::optional<Crease> crease = crease_in({face, column, row}, planes);
+                if (!crease) continue;
                 crease_of_[quad(face, column, row)] = static_cast<std::uint32_t>(creases_.size());
-                creases_.push_back(crease);
+                creases_.push_back(*crease);
             }
         }
     }
+}
+
+// Of the four texels from `first` on; `planes` are what every texel sees.
+std::optional<RecallMap::Crease> RecallMap::crease_in(const Texel& first,
+                                                      std::span<const Vec3> planes) const {
+    Crease crease;
+    std::array<Vec3, 4> along{};
+    std::array<float, 4> inverse{};
+    for (int k = 0; k < 4; ++k) {
+        const Texel at{first.face, first.column + k % 2, first.row + k / 2};
+        const DVec3 direction = texel_direction(at, face_px_);
+        crease.planes[k] = planes[texel_index(texel_of_direction(direction, face_px_), face_px_)];
+        along[k] = Vec3(direction);
+        inverse[k] = texel(at.face, at.column, at.row);
+    }
+    const auto [least, most] = std::minmax_element(inverse.begin(), inverse.end());
+    if (*most > *least * kMostDepthRatio) return std::nullopt;
+    float below = 0.0f;
+    float above = 0.0f;
+    for (int k = 0; k < 4; ++k) {
+        for (int l = 0; l < 4; ++l) {
+            const float past = glm::dot(crease.planes[k], along[l]) - inverse[l];
+            below = std::max(below, -past / inverse[l]);
+            above = std::max(above, past / inverse[l]);
+        }
+    }
+    // Planes that pass one another's texels on both sides do not meet here.
+    const bool is_crossed = std::min(below, above) > 0.5f * kCreaseShare;
+    if (std::max(below, above) < kCreaseShare || is_crossed) return std::nullopt;
+    crease.is_convex = below > above;
+    return crease;
 }
 
 // The plane on the direction's side of the quad's crease; none where there is no crease, or where

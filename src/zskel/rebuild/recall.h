@@ -1,6 +1,8 @@
 #pragma once
 
 #include <array>
+#include <optional>
+#include <span>
 #include <vector>
 
 #include "zskel/core/types.h"
@@ -43,6 +45,7 @@ class RecallMap {
     void fill_border();
     Vec3 plane_of(const Texel& at) const;
     void find_creases();
+    std::optional<Crease> crease_in(const Texel& first, std::span<const Vec3> planes) const;
     const Vec3* beside_crease(std::size_t quad, const DVec3& direction, double farthest) const;
 
     DVec3 eye_;
