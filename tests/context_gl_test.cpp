@@ -90,6 +90,23 @@ TEST_CASE("Context: out of memory is an error with its stage, and what fits is d
     CHECK(*image.at(0, 0) == 255);
 }
 
+TEST_CASE("Context: a lost one says so from then on, and a new one works") {
+    const auto context = any_context();
+    const auto reset_gpu = [](const gl::Api& gl) {
+        const_cast<gl::Api&>(gl).GetGraphicsResetStatus = []() -> GLenum {
+            return GL_INNOCENT_CONTEXT_RESET;
+        };
+    };
+    CHECK_THROWS_WITH_AS(context->run("a reset", reset_gpu),
+                         doctest::Contains("was lost: the GPU was reset for what another"),
+                         GlError);
+    bool has_run = false;
+    CHECK_THROWS_WITH_AS(context->run("the next", [&](const gl::Api&) { has_run = true; }),
+                         doctest::Contains("the next: the context was lost before"), GlError);
+    CHECK_FALSE(has_run);
+    CHECK_NOTHROW(any_context()->run("anew", [](const gl::Api& gl) { gl.Finish(); }));
+}
+
 TEST_CASE("Context: what the work throws comes back, from any thread") {
     const auto context = any_context();
     CHECK_THROWS_AS(context->run("throwing", [](const gl::Api&) { throw InputError("mine"); }),

@@ -228,6 +228,26 @@ def case_crash():
     check_outputs("out", [f"{name}.json" for name in SMALL])
 
 
+def case_lost_context():
+    """The GPU is reset while an item is worked on: the item is tried again, but for a worker's first."""
+    copy_models()
+    line = ["in", *QUICK[2:], "--backend", "egl", "-o", "out/{stem}.json", "--workers", "1", "--json"]
+    if subprocess.run([PROGRAM, "extract", "in/y.obj", "--backend", "egl", "-o", "y.json", "-q"]).returncode:
+        sys.exit(77)
+    for after, failed in ((1, 0), (3, 1), (30, 0)):
+        env = {**os.environ, "LD_LIBRARY_PATH": os.environ["ZSKEL_LOSING_EGL"], "ZSKEL_LOSE_AFTER": str(after)}
+        journal = f"{after}.jsonl"
+        done = subprocess.run([PROGRAM, "batch", *line, "--journal", journal], capture_output=True, text=True, env=env)
+        expect("losing_egl: lost" in done.stderr, f"no context was lost after {after}: {done.stderr}")
+        tally = json.loads(done.stdout)
+        check_sum(tally)
+        expect(tally["failed"] == failed and tally["ok"] + tally["warned"] == len(SMALL) - failed, tally)
+        failures = [record for record in records(journal).values() if record["status"] == "failed"]
+        for record in failures:
+            expect(record["reason"] == "no_backend" and "was lost" in record["text"], record)
+        shutil.rmtree("out")
+
+
 def case_resume():
     copy_models()
     open("in/bad.obj", "w").write("v nan 0 0\n")

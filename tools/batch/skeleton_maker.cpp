@@ -163,6 +163,7 @@ void SkeletonMaker::add_thumbnail(const ExtractResult& result, Record& record) {
         record.thumbnail = scoring::base64(encode_png(image, record.model));
     } catch (const Error& error) {
         if (!picture_context_) no_picture_ = error.what();
+        picture_context_ = {};  // it may be lost
         record.no_thumbnail = error.what();
     }
 }

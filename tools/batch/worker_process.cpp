@@ -135,11 +135,12 @@ std::optional<Record> Worker::take_record() {
     return std::nullopt;
 }
 
-// The heap of a process that has done other items may be in pieces; and SIGKILL is no doing of a
-// model's, unless the system had to make room.
+// The heap of a process that has done other items may be in pieces, or its GL context lost; and
+// SIGKILL is no doing of a model's, unless the system had to make room.
 bool Worker::deserves_second_try(const Record& record) const {
     if (is_second_try_) return false;
-    return (record.reason == "memory" && items_done_ > 1) ||
+    const bool may_be_worn = record.reason == "memory" || record.reason == "no_backend";
+    return (may_be_worn && items_done_ > 1) ||
            (record.reason == "crashed" && record.exit_code == 128 + SIGKILL);
 }
 

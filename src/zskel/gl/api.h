@@ -47,6 +47,7 @@ namespace zskel::gl {
     X(PFNGLENABLEVERTEXARRAYATTRIBPROC, EnableVertexArrayAttrib)         \
     X(PFNGLFINISHPROC, Finish)                                           \
     X(PFNGLGETERRORPROC, GetError)                                       \
+    X(PFNGLGETGRAPHICSRESETSTATUSPROC, GetGraphicsResetStatus)           \
     X(PFNGLGETINTEGERVPROC, GetIntegerv)                                 \
     X(PFNGLGETNAMEDBUFFERSUBDATAPROC, GetNamedBufferSubData)             \
     X(PFNGLGETPROGRAMINFOLOGPROC, GetProgramInfoLog)                     \

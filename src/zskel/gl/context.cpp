@@ -35,10 +35,21 @@ std::string_view error_name(GLenum error) {
             return "GL_INVALID_FRAMEBUFFER_OPERATION";
         case GL_OUT_OF_MEMORY:
             return "GL_OUT_OF_MEMORY";
-        case GL_CONTEXT_LOST:
-            return "GL_CONTEXT_LOST";
         default:
             return "an unknown GL error";
+    }
+}
+
+std::string_view blame_of(GLenum reset) {
+    switch (reset) {
+        case GL_GUILTY_CONTEXT_RESET:
+            return ": the GPU was reset for what it did";
+        case GL_INNOCENT_CONTEXT_RESET:
+            return ": the GPU was reset for what another context did";
+        case GL_UNKNOWN_CONTEXT_RESET:
+            return ": the GPU was reset";
+        default:
+            return "";
     }
 }
 
@@ -176,6 +187,7 @@ class ThreadContext : public Context {
             const auto* work = std::exchange(work_, nullptr);
             lock.unlock();
             attempt([&] {
+                if (is_lost_) throw GlError(fmt::format("{}: the context was lost before", stage_));
                 (*work)(api);
                 check(api);
             });
@@ -218,9 +230,15 @@ class ThreadContext : public Context {
     }
 
     void check(const Api& api) {
+        const GLenum reset = api.GetGraphicsResetStatus();
         const GLenum error = api.GetError();
+        is_lost_ = reset != GL_NO_ERROR || error == GL_CONTEXT_LOST;
+        if (is_lost_) {
+            throw GlError(fmt::format("{} failed: the context on {} was lost{}{}", stage_,
+                                      info_.renderer, blame_of(reset), said_));
+        }
         if (error == GL_NO_ERROR) return;
-        while (api.GetError() != GL_NO_ERROR && error != GL_CONTEXT_LOST) {
+        while (api.GetError() != GL_NO_ERROR) {
         }
         throw GlError(fmt::format("{} failed with {} on {}{}", stage_, error_name(error),
                                   info_.renderer, said_));
@@ -243,6 +261,7 @@ class ThreadContext : public Context {
     const std::function<void(const Api&)>* work_ = nullptr;
     bool ready_ = false;
     bool quit_ = false;
+    bool is_lost_ = false;  // for good: the GPU was reset, or taken away
     std::exception_ptr failure_;
     std::string stage_ = "opening the context";
     std::string said_;  // by the driver's debug output, during the present work

@@ -49,8 +49,9 @@ class Context {
 
     /// Runs `work` on the context's thread with the context current, and waits for it.
     /// Exceptions of `work` come back here; a GL error that it leaves behind is thrown as GlError,
-    /// naming `stage` and what the driver's debug output said. Safe to call from any thread, one
-    /// call at a time.
+    /// naming `stage` and what the driver's debug output said. A lost context (the GPU was reset)
+    /// stays lost: that and every later call throws GlError. Safe to call from any thread, one call
+    /// at a time.
     virtual void run(std::string_view stage, const std::function<void(const Api&)>& work) = 0;
 
     virtual const ContextInfo& info() const = 0;

@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include <string_view>
+#include <vector>
 
 #include "zskel/core/error.h"
 #include "zskel/gl/native_context.h"
@@ -122,16 +123,8 @@ class EglContext : public NativeContext {
         EGLint count = 0;
         require(egl_.choose_config(display_, wanted, &config, 1, &count) == EGL_TRUE && count > 0,
                 "eglChooseConfig for OpenGL");
-        const EGLint attributes[] = {EGL_CONTEXT_MAJOR_VERSION,
-                                     4,
-                                     EGL_CONTEXT_MINOR_VERSION,
-                                     5,
-                                     EGL_CONTEXT_OPENGL_PROFILE_MASK,
-                                     EGL_CONTEXT_OPENGL_CORE_PROFILE_BIT,
-                                     EGL_CONTEXT_OPENGL_DEBUG,
-                                     EGL_TRUE,
-                                     EGL_NONE};
-        context_ = egl_.create_context(display_, config, EGL_NO_CONTEXT, attributes);
+        context_ = create(config, true);
+        if (context_ == EGL_NO_CONTEXT) context_ = create(config, false);
         require(context_ != EGL_NO_CONTEXT, "eglCreateContext for OpenGL 4.5 core");
         if (egl_.make_current(display_, EGL_NO_SURFACE, EGL_NO_SURFACE, context_) != EGL_TRUE) {
             const EGLint error = egl_.get_error();
@@ -153,6 +146,21 @@ class EglContext : public NativeContext {
     }
 
   private:
+    // One that tells of a reset of its GPU, where the driver can.
+    EGLContext create(EGLConfig config, bool tells_reset) const {
+        std::vector<EGLint> attributes{
+            EGL_CONTEXT_MAJOR_VERSION,       4,
+            EGL_CONTEXT_MINOR_VERSION,       5,
+            EGL_CONTEXT_OPENGL_PROFILE_MASK, EGL_CONTEXT_OPENGL_CORE_PROFILE_BIT,
+            EGL_CONTEXT_OPENGL_DEBUG,        EGL_TRUE};
+        if (tells_reset) {
+            attributes.insert(attributes.end(), {EGL_CONTEXT_OPENGL_RESET_NOTIFICATION_STRATEGY,
+                                                 EGL_LOSE_CONTEXT_ON_RESET});
+        }
+        attributes.push_back(EGL_NONE);
+        return egl_.create_context(display_, config, EGL_NO_CONTEXT, attributes.data());
+    }
+
     void require(bool fine, const char* call) const {
         if (!fine)
             throw GlError(fmt::format("{} failed (EGL error {:#06x})", call, egl_.get_error()));
