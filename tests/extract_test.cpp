@@ -228,3 +228,20 @@ TEST_CASE("open_backend: options that make no sense together are usage errors") 
     CHECK_THROWS_AS(open_backend(options), UsageError);
     CHECK_THROWS_AS(parse_backend("vulkan"), UsageError);
 }
+
+TEST_CASE("extract_skeleton: a solid's skeleton is the same whatever else the model holds") {
+    const SkeletonGraph alone = test::extract(test::torus()).graph;
+    for (const double apart : {10.0, 1e6}) {
+        const Mesh both =
+            test::together(test::sphere(0.2, 2), test::moved(test::torus(), {apart, 0.0, 0.0}));
+        SkeletonGraph part;
+        for (const SkeletonGraph::Node& node : test::extract(both).graph.nodes) {
+            if (node.solid == 1) part.nodes.push_back(node);
+        }
+        REQUIRE(part.nodes.size() == alone.nodes.size());
+        for (std::size_t n = 0; n < part.nodes.size(); ++n) {
+            const DVec3 back = part.nodes[n].position - DVec3(apart, 0.0, 0.0);
+            CHECK(glm::distance(back, alone.nodes[n].position) < 1e-4);
+        }
+    }
+}

@@ -25,7 +25,7 @@ SelfCheck check_of(const Mesh& mesh, const std::vector<DVec3>& places,
     skeleton.knows_cycles = true;
     SkeletonChecker checker;
     checker.add(solids[0], SurfaceQuery(solids[0].surface), skeleton);
-    return checker.finish(graph, prepared.surface.world_from_model);
+    return checker.finish(graph);
 }
 
 }  // namespace

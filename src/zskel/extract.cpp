@@ -140,9 +140,7 @@ class Assembler {
     }
 
     // What was found, beside what should have been.
-    void finish_check() {
-        result_.check = checker_.finish(result_.graph, result_.surface.world_from_model);
-    }
+    void finish_check() { result_.check = checker_.finish(result_.graph); }
 
     void map_vertices(const PreparedSurface& prepared) {
         result_.graph.vertex_node.reserve(prepared.surface_vertex.size());
@@ -253,10 +251,8 @@ BackendOptions backend_options_for(const Mesh& mesh, const ExtractOptions& optio
                                    BackendOptions backend) {
     const bool is_paper = options.method == Method::Paper;
     const std::size_t vertices = mesh.positions.size();
-    const SpreadOptions& spread = options.newton.spread;
-    const std::size_t usual = std::min(
-        spread.max_seeds, std::max(spread.min_seeds, spread.min_seeds / 2 + spread.many_seeds / 2));
-    const std::size_t seeds = is_paper ? vertices : std::min(vertices, usual);
+    const std::size_t seeds =
+        is_paper ? vertices : std::min(vertices, options.newton.spread.min_seeds);
     if (backend.face_px == 0) backend.face_px = is_paper ? kDefaultFacePx : kNewtonFacePx;
     backend.work.faces = mesh.triangles.size();
     backend.work.evaluations = seeds * (is_paper ? kPaperEvaluations : kNewtonEvaluations);

@@ -56,8 +56,10 @@ void SkeletonChecker::add(const Solid& solid, const SurfaceQuery& query,
     const std::vector<bool> inside = solid.is_closed
                                          ? nodes_inside(query, skeleton, is_free)
                                          : std::vector<bool>(skeleton.nodes.size(), true);
+    const Similarity& world = solid.surface.world_from_model;
     const auto look_at = [&](const Vec3& point, bool is_in) {
-        const auto distance = static_cast<double>(query.nearest(point).distance);
+        const double distance =
+            world.length_to_model(static_cast<double>(query.nearest(point).distance));
         least_clearance_ = std::min(least_clearance_, is_in ? distance : -distance);
     };
     for (std::size_t n = 0; n < skeleton.nodes.size(); ++n) look_at(skeleton.nodes[n], inside[n]);
@@ -69,14 +71,13 @@ void SkeletonChecker::add(const Solid& solid, const SurfaceQuery& query,
             is_whole ? (inside[skeleton.edges[e].x] ? 1.0 : 0.0) : share_inside(query, a, b);
         look_at(0.5f * (a + b), share > 0.5);
         if (!solid.is_closed) continue;
-        const auto length = static_cast<double>(glm::distance(a, b));
+        const double length = world.length_to_model(static_cast<double>(glm::distance(a, b)));
         length_ += length;
         inside_ += length * share;
     }
 }
 
-SelfCheck SkeletonChecker::finish(const SkeletonGraph& graph,
-                                  const Similarity& world_from_model) const {
+SelfCheck SkeletonChecker::finish(const SkeletonGraph& graph) const {
     const GraphTopology topology = graph_topology(graph);
     SelfCheck check;
     check.components = topology.components;
@@ -85,7 +86,7 @@ SelfCheck SkeletonChecker::finish(const SkeletonGraph& graph,
     if (knows_cycles_) check.expected_cycles = expected_cycles_;
     const double without_edges = least_clearance_ < 0.0 ? 0.0 : 1.0;
     if (closed_ > 0) check.share_inside = length_ > 0.0 ? inside_ / length_ : without_edges;
-    check.least_clearance = world_from_model.length_to_model(least_clearance_);
+    check.least_clearance = least_clearance_;
     if (check.components != check.expected_components)
         check.failures.push_back(fmt::format("{} components for {} solids", check.components,
                                              check.expected_components));

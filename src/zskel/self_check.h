@@ -37,14 +37,14 @@ class SkeletonChecker {
     void add(const Solid& solid, const SurfaceQuery& query, const SolidSkeleton& skeleton);
 
     /// @param graph  of all solids.
-    SelfCheck finish(const SkeletonGraph& graph, const Similarity& world_from_model) const;
+    SelfCheck finish(const SkeletonGraph& graph) const;
 
   private:
     std::size_t solids_ = 0;
     std::size_t closed_ = 0;
     std::size_t expected_cycles_ = 0;
     bool knows_cycles_ = true;
-    double length_ = 0.0;  // world units, of closed solids
+    double length_ = 0.0;  // model units, of closed solids
     double inside_ = 0.0;
     double least_clearance_ = std::numeric_limits<double>::infinity();
 };

@@ -127,14 +127,29 @@ void part_fans(Solid& solid) {
     }
 }
 
+// So that its skeleton is the same whatever else the model holds.
+void place_in_own_world(Solid& solid, const PreparedSurface& prepared) {
+    std::vector<DVec3> places;
+    for (const std::uint32_t v : solid.vertex) places.push_back(prepared.places[v]);
+    Surface& surface = solid.surface;
+    surface.world_from_model =
+        scale_by_spread(places, surface.triangles, prepared.surface.world_from_model);
+    for (const DVec3& place : places)
+        surface.positions.push_back(surface.world_from_model.to_world(place));
+}
+
 // Parts the fans, and derives what follows from the vertices when that is not known yet.
 void finish(Solid& solid, const PreparedSurface& prepared) {
     if (!prepared.fans_are_whole) part_fans(solid);
     Surface& surface = solid.surface;
     if (surface.positions.size() == solid.vertex.size()) return;
     surface.positions.clear();
-    for (const std::uint32_t v : solid.vertex)
-        surface.positions.push_back(prepared.surface.positions[v]);
+    if (prepared.places.empty()) {
+        for (const std::uint32_t v : solid.vertex)
+            surface.positions.push_back(prepared.surface.positions[v]);
+    } else {
+        place_in_own_world(solid, prepared);
+    }
     derive_normals(surface);
     derive_edges(surface);
 }

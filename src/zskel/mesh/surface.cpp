@@ -21,45 +21,19 @@ namespace {
 
 constexpr double kClearOutlook = 0.05;  // by how much a share must be more
 
-Similarity unit_cube(const std::vector<DVec3>& positions, const std::string& name) {
+// Halved first: the extent of a model near the limits of a double must not overflow. A scale of 0:
+// there is no extent that can be scaled.
+Similarity unit_cube(std::span<const DVec3> positions) {
     DVec3 low(std::numeric_limits<double>::max());
     DVec3 high(std::numeric_limits<double>::lowest());
     for (const DVec3& p : positions) {
         low = glm::min(low, p);
         high = glm::max(high, p);
     }
-    // Halved first: the extent of a model near the limits of a double must not overflow.
     const DVec3 half = high * 0.5 - low * 0.5;
     const double size = 2.0 * std::max({half.x, half.y, half.z});
-    if (!(size > 0.0) || !std::isfinite(size) || !std::isfinite(1.0 / size)) {
-        throw InputError(fmt::format(
-            "{}: the model's extent is {}; it needs a positive, finite one", name, size));
-    }
-    return {low + half, 1.0 / size};
-}
-
-// Second moments of the triangles about their common centroid, in the unit cube so that nothing
-// overflows.
-Similarity by_spread(const WeldedMesh& welded, const Similarity& cube) {
-    double area_sum = 0.0;
-    DVec3 first(0.0);
-    double second = 0.0;
-    for (const Triangle& t : welded.triangles) {
-        const DVec3 a = (welded.positions[t.x] - cube.center) * cube.scale;
-        const DVec3 b = (welded.positions[t.y] - cube.center) * cube.scale;
-        const DVec3 c = (welded.positions[t.z] - cube.center) * cube.scale;
-        const double area = 0.5 * glm::length(glm::cross(b - a, c - a));
-        const DVec3 sum = a + b + c;
-        area_sum += area;
-        first += sum * (area / 3.0);
-        second +=
-            area / 12.0 * (glm::dot(a, a) + glm::dot(b, b) + glm::dot(c, c) + glm::dot(sum, sum));
-    }
-    if (!(area_sum > 0.0)) return cube;
-    const DVec3 centroid = first / area_sum;
-    const double variance = second / area_sum - glm::dot(centroid, centroid);
-    if (!(variance > 0.0)) return cube;
-    return {cube.center + centroid / cube.scale, cube.scale * kWorldSpread / std::sqrt(variance)};
+    const bool can_scale = size > 0.0 && std::isfinite(size) && std::isfinite(1.0 / size);
+    return {low + half, can_scale ? 1.0 / size : 0.0};
 }
 
 bool has_edge(const std::vector<Side>& sides, bool (*is_meant)(std::size_t)) {
@@ -131,6 +105,33 @@ void refuse_repairs(const Mesh& mesh, const std::vector<Repair>& repairs) {
 
 }  // namespace
 
+// Second moments of the triangles about their common centroid, in the unit cube so that nothing
+// overflows.
+Similarity scale_by_spread(std::span<const DVec3> positions, std::span<const Triangle> triangles,
+                           const Similarity& otherwise) {
+    const Similarity cube = unit_cube(positions);
+    if (cube.scale == 0.0) return otherwise;
+    double area_sum = 0.0;
+    DVec3 first(0.0);
+    double second = 0.0;
+    for (const Triangle& t : triangles) {
+        const DVec3 a = (positions[t.x] - cube.center) * cube.scale;
+        const DVec3 b = (positions[t.y] - cube.center) * cube.scale;
+        const DVec3 c = (positions[t.z] - cube.center) * cube.scale;
+        const double area = 0.5 * glm::length(glm::cross(b - a, c - a));
+        const DVec3 sum = a + b + c;
+        area_sum += area;
+        first += sum * (area / 3.0);
+        second +=
+            area / 12.0 * (glm::dot(a, a) + glm::dot(b, b) + glm::dot(c, c) + glm::dot(sum, sum));
+    }
+    if (!(area_sum > 0.0)) return otherwise;
+    const DVec3 centroid = first / area_sum;
+    const double variance = second / area_sum - glm::dot(centroid, centroid);
+    if (!(variance > 0.0)) return otherwise;
+    return {cube.center + centroid / cube.scale, cube.scale * kWorldSpread / std::sqrt(variance)};
+}
+
 PreparedSurface prepare_surface(const Mesh& mesh, WorldSize size, const RepairOptions& options) {
     PreparedSurface out;
     WeldedMesh welded = weld_equal(mesh, out.repairs);
@@ -146,13 +147,22 @@ PreparedSurface prepare_surface(const Mesh& mesh, WorldSize size, const RepairOp
     note_what_is_left(parts, out.repairs);
     if (!options.is_allowed) refuse_repairs(mesh, out.repairs);
 
-    out.surface.world_from_model = unit_cube(welded.positions, mesh.name);
-    if (size == WorldSize::Spread)
-        out.surface.world_from_model = by_spread(welded, out.surface.world_from_model);
+    const Similarity cube = unit_cube(welded.positions);
+    if (cube.scale == 0.0) {
+        throw InputError(
+            fmt::format("{}: the model's extent is not a positive, finite number that "
+                        "it can be scaled by",
+                        mesh.name));
+    }
+    out.surface.world_from_model = size == WorldSize::UnitCube
+                                       ? cube
+                                       : scale_by_spread(welded.positions, welded.triangles, cube);
     out.surface.positions.reserve(welded.positions.size());
     for (const DVec3& p : welded.positions) {
         out.surface.positions.push_back(out.surface.world_from_model.to_world(p));
     }
+    if (size == WorldSize::Spread && parts.component_count > 1)
+        out.places = std::move(welded.positions);
     out.surface.triangles = std::move(welded.triangles);
     out.surface.edges = std::move(parts.edges);
     // Caps have edges of their own, and what was left out has none.

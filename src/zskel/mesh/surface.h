@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -20,6 +21,20 @@ struct Similarity {
     DVec3 to_model(const Vec3& world) const { return DVec3(world) / scale + center; }
     double length_to_model(double world) const { return world / scale; }
 };
+
+/// How world space is scaled.
+enum class WorldSize {
+    UnitCube,  ///< the longest side of the bounding box is 1, its middle at 0 (the paper's)
+    Spread,    ///< the area's root mean square distance from its centroid is kWorldSpread: the same
+             ///< however the model is turned, and about a unit cube for the shapes that one meets.
+             ///< Each solid has such a space of its own, whatever else the model holds
+};
+inline constexpr double kWorldSpread = 0.3;
+
+/// The scale by an area's spread. @param otherwise  what is taken where there is no area, or none
+/// that can be scaled.
+Similarity scale_by_spread(std::span<const DVec3> positions, std::span<const Triangle> triangles,
+                           const Similarity& otherwise);
 
 /// Flat buffers of a triangle surface in world space; every triangle has three different corners.
 struct Surface {
@@ -51,17 +66,11 @@ struct PreparedSurface {
     std::vector<bool> component_closed;  ///< every edge has exactly two triangles
     std::vector<bool> component_sheet;   ///< open, and too thin to hold anything if it were capped
     bool fans_are_whole = false;         ///< the triangles at every vertex hang together over edges
-    std::vector<Opening> openings;       ///< that caps close
+    std::vector<DVec3> places;      ///< of every vertex, model space; only where solids are scaled
+                                    ///< one by one: WorldSize::Spread, more components than one
+    std::vector<Opening> openings;  ///< that caps close
     std::vector<Repair> repairs;
 };
-
-/// How world space is scaled.
-enum class WorldSize {
-    UnitCube,  ///< the longest side of the bounding box is 1, its middle at 0 (the paper's)
-    Spread,    ///< the area's root mean square distance from its centroid is kWorldSpread: the same
-               ///< however the model is turned, and about a unit cube for the shapes that one meets
-};
-inline constexpr double kWorldSpread = 0.3;
 
 /// Makes a mesh ready, a repair a file: equal positions welded, degenerate and duplicate faces
 /// dropped (welded_mesh.h), cracks closed (cracks.h), non-manifold edges mended (crowded_edges.h),

@@ -15,7 +15,7 @@ struct LimbOptions {
     double least_world = 0.02;           ///< sticks out at least this far, in the solid's size,
     double least_own_girths = 1.0;       ///< this many of its own girths,
     double least_junction_girths = 0.2;  ///< and of the body's,
-    double least_product = 0.64;         ///< and so much by the product of the two
+    double least_product = 0.53;         ///< and so much by the product of the two
     double bare_own_girths =
         2.5;                    ///< where no seed came to rest beyond the ball: so many of its own,
     double bare_product = 2.5;  ///< so much by the product,
