@@ -162,12 +162,25 @@ TEST_CASE("fill_template: every name, columns, and doubled braces") {
 
 TEST_CASE("plan_items: outputs that would meet are refused before any work") {
     const std::vector<Entry> entries{{"a/x.obj", "", {}}, {"b/x.obj", "", {}}};
-    CHECK_THROWS_WITH_AS(plan_items(entries, "{stem}.json"), doctest::Contains("{dir}"),
-                         UsageError);
     CHECK(plan_items(entries, "{dir}/{stem}.json")[1].output == "b/x.json");
-    CHECK_THROWS_AS(plan_items({{"a.obj", "x.json", {}}, {"b.obj", "./q/../x.json", {}}}, ""),
-                    UsageError);
-    CHECK_THROWS_AS(plan_items({{"a.obj", "b.obj", {}}, {"./b.obj", "c.obj", {}}}, ""), UsageError);
+    const Folder folder;
+    fs::create_directory_symlink(".", folder.at("self"));
+    const auto refused = [](const std::vector<Entry>& of, const std::string& pattern,
+                            const BatchFiles& files, const char* why) {
+        CHECK_THROWS_WITH_AS(check_files(plan_items(of, pattern), files), doctest::Contains(why),
+                             UsageError);
+    };
+    refused(entries, "{stem}.json", {}, "{dir}");
+    refused({{"a.obj", "x.json", {}}, {"b.obj", "./q/../x.json", {}}}, "", {}, "two models");
+    refused({{"a.obj", "b.obj", {}}, {"./b.obj", "c.obj", {}}}, "", {}, "replace this model");
+    refused({{folder.at("a.obj"), folder.at("self/a.obj"), {}}}, "", {}, "replace this model");
+    refused({{"a.obj", "b.json", {}}}, "", {{"a.txt"}, "b.jsonl", "./a.txt"}, "a manifest");
+    refused({{"a.obj", "b.json", {}}}, "", {{"a.txt"}, "b.jsonl", "a.obj"}, "the report");
+    refused({{"a.obj", "b.json", {}}}, "", {{"a.txt"}, "b.json", ""}, "the journal");
+    refused({{"a.obj", "a.txt", {}}}, "", {{"a.txt"}, "b.jsonl", ""}, "a manifest");
+    refused({{"a.obj", "b.json", {}}}, "", {{"a.txt"}, "b.jsonl", "b.jsonl"}, "the journal");
+    CHECK_NOTHROW(check_files(plan_items({{"a.obj", "b.json", {}}}, ""),
+                              {{"a.obj"}, "b.jsonl", "b.html"}));
     CHECK_THROWS_AS(plan_items({{"-", "x.json", {}}}, ""), UsageError);
     CHECK_THROWS_AS(plan_items({{std::string("a\0b", 3), "x.json", {}}}, ""), UsageError);
 }
@@ -243,6 +256,16 @@ TEST_CASE("journal: the last line of an output counts, and a torn one is cut off
     Journal journal(path);
     CHECK(fs::file_size(path) < torn);
     CHECK(journal.strange_lines() == 1);
+    const std::string half = folder.at("half.jsonl");
+    std::ofstream(half) << "{\"model\":\"a";
+    CHECK(Journal(half).strange_lines() == 0);
+    CHECK(fs::file_size(half) == 0);
+    for (const char* other : {"a list\n", "solid cube", "{\"models\": 1}\n"}) {
+        const std::string name = folder.at("other");
+        std::ofstream(name) << other;
+        CHECK_THROWS_WITH_AS(Journal{name}, doctest::Contains("is no journal"), UsageError);
+        CHECK(fs::file_size(name) == std::string_view(other).size());
+    }
     REQUIRE(journal.find("a") != nullptr);
     CHECK(journal.find("a")->key == "new");
     CHECK(journal.find("b")->status == Status::Ok);

@@ -24,9 +24,9 @@ struct Cut {
     std::vector<Triangle> triangles;
 };
 
-Cut cut(const Points& points) {
+Cut cut(const Points& points, std::size_t looks_left = 1'000'000'000) {
     Cut result;
-    result.is_proper = triangulate(points, in_order(points.size()), result.triangles);
+    result.is_proper = triangulate(points, in_order(points.size()), result.triangles, looks_left);
     return result;
 }
 
@@ -207,4 +207,27 @@ TEST_CASE("triangulate: every corner is used, whatever the polygon looks like") 
 }
 
 }  // namespace
+TEST_CASE("triangulate: a winding outline takes few looks, and one that takes many ends in a fan") {
+    Points spiral;
+    for (const double inner : {0.0, 0.03}) {
+        Points turns;
+        for (int i = 0; i < 2000; ++i) {
+            const double t = i / 2000.0;
+            const double r = 0.1 + inner + t;
+            turns.emplace_back(r * std::cos(20.0 * std::numbers::pi * t),
+                               r * std::sin(20.0 * std::numbers::pi * t), 0.0);
+        }
+        if (inner > 0.0) std::reverse(turns.begin(), turns.end());
+        spiral.insert(spiral.end(), turns.begin(), turns.end());
+    }
+    CHECK(cut(spiral, 500 * spiral.size()).is_proper);
+    // Round and round the same triangle: every corner lies on every ear.
+    Points rounds;
+    for (int i = 0; i < 30000; ++i)
+        rounds.emplace_back(i % 3 == 1 ? 1.0 : 0.0, i % 3 == 2 ? 1.0 : 0.0, 0.0);
+    const Cut fan = cut(rounds, 100 * rounds.size());
+    CHECK_FALSE(fan.is_proper);
+    CHECK(fan.triangles.size() == rounds.size() - 2);
+}
+
 }  // namespace zskel

@@ -17,6 +17,8 @@
 namespace zskel::batch {
 namespace {
 
+constexpr std::string_view kRecordBegin = "{\"model\":";
+
 [[noreturn]] void fail(const std::string& path, const char* what) {
     throw IoError(fmt::format("{}: the journal {}: {}", path, what, std::strerror(errno)));
 }
@@ -73,6 +75,10 @@ void Journal::read() {
         text.append(piece.data(), static_cast<std::size_t>(count));
     }
     take_lines(text);
+    // Half a first record may be all that a killed batch left.
+    const std::string_view begin = std::string_view(text).substr(0, kRecordBegin.size());
+    if (last_.empty() && (strange_lines_ > 0 || !kRecordBegin.starts_with(begin)))
+        throw UsageError(fmt::format("{}: is no journal of a batch, and is left as it is", path_));
     if (size_ < text.size() && ::ftruncate(file_, static_cast<off_t>(size_)) != 0)
         fail(path_, "cannot be cut after its last whole line");
 }

@@ -22,6 +22,8 @@ using Json = nlohmann::json;
 constexpr std::array<std::string_view, 10> kModelEndings = {
     ".obj", ".ply", ".stl", ".off", ".coff", ".noff", ".cnoff", ".stoff", ".bpt", ".surface.json"};
 
+constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";  // Excel's CSV begins with it
+
 std::string lower_case(std::string text) {
     std::transform(text.begin(), text.end(), text.begin(),
                    [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
@@ -138,7 +140,9 @@ std::vector<Entry> read_manifest(const std::string& path, bool recursive) {
     std::error_code unknown;
     if (path != "-" && fs::is_directory(path, unknown)) return entries_of_folder(path, recursive);
     if (is_model(path)) return {{path, "", {}}};
-    const std::string text = read_input_file(path, "a manifest");
+    const std::string file = read_input_file(path, "a manifest");
+    std::string_view text = file;
+    if (text.starts_with(kByteOrderMark)) text.remove_prefix(kByteOrderMark.size());
     const std::string name = lower_case(path);
     if (name.ends_with(".csv")) return entries_of_csv(text, path);
     if (name.ends_with(".jsonl") || name.ends_with(".ndjson"))

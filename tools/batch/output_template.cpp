@@ -26,7 +26,12 @@ std::string value_of(const std::string& name, const Entry& entry, std::size_t in
         return folder.empty() ? "." : folder;
     }
     const auto field = entry.fields.find(name);
-    if (field != entry.fields.end()) return field->second;
+    if (field != entry.fields.end()) {
+        if (field->second.empty()) {
+            throw UsageError(fmt::format("--output: {{{}}} is empty for {}", name, entry.model));
+        }
+        return field->second;
+    }
     std::string known = "stem, name, dir, index";
     for (const auto& [column, value] : entry.fields) known += ", " + column;
     throw UsageError(fmt::format("--output: {{{}}} is not known; {} are", name, known));

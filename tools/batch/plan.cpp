@@ -23,30 +23,25 @@ bool parse_number(std::string_view text, std::size_t& value) {
     return error == std::errc() && stop == end;
 }
 
-// One spelling a file, without asking the file system about each of a hundred thousand.
-std::string plain_path(const fs::path& here, const std::string& path) {
-    return (here / path).lexically_normal().string();
-}
+// One spelling a file. The file system is asked about each folder once, not about each of a hundred
+// thousand files.
+class Spelling {
+  public:
+    std::string operator()(const std::string& path) {
+        const fs::path plain = (here_ / path).lexically_normal();
+        const auto [folder, is_new] = folders_.emplace(plain.parent_path().string(), "");
+        if (is_new) {
+            std::error_code unknown;
+            const fs::path found = fs::weakly_canonical(plain.parent_path(), unknown);
+            folder->second = unknown ? folder->first : found.string();
+        }
+        return folder->second + "/" + plain.filename().string();
+    }
 
-// By the output: which item has it. By the model: any.
-void check_outputs(const std::vector<Item>& items) {
-    const fs::path here = fs::current_path();
-    std::unordered_map<std::string, const Item*> taken;
-    for (const Item& item : items) {
-        const auto [other, is_new] = taken.emplace(plain_path(here, item.output), &item);
-        if (is_new) continue;
-        throw UsageError(fmt::format(
-            "{}: the output of two models, {} and {}; --output can tell them apart by {{dir}} or "
-            "{{index}}",
-            item.output, other->second->model, item.model));
-    }
-    for (const Item& item : items) {
-        const auto other = taken.find(plain_path(here, item.model));
-        if (other == taken.end()) continue;
-        throw UsageError(fmt::format("{}: the output of {} would replace this model", item.model,
-                                     other->second->model));
-    }
-}
+  private:
+    fs::path here_ = fs::current_path();
+    std::unordered_map<std::string, std::string> folders_;
+};
 
 }  // namespace
 
@@ -76,8 +71,51 @@ std::vector<Item> plan_items(const std::vector<Entry>& entries, const std::strin
             throw UsageError(fmt::format("item {}: a name holds a zero byte", i));
         items.push_back({i, entry.model, std::move(output)});
     }
-    check_outputs(items);
     return items;
+}
+
+void check_files(const std::vector<Item>& items, const BatchFiles& files) {
+    Spelling spelling;
+    std::unordered_map<std::string, const Item*> by_output;
+    for (const Item& item : items) {
+        const auto [other, is_new] = by_output.emplace(spelling(item.output), &item);
+        if (is_new) continue;
+        throw UsageError(fmt::format(
+            "{}: the output of two models, {} and {}; --output can tell them apart by {{dir}} or "
+            "{{index}}",
+            item.output, other->second->model, item.model));
+    }
+    std::unordered_map<std::string, std::string> others;  // and what they are
+    const auto take = [&](const std::string& path, const char* what) {
+        if (path.empty() || path == "-") return;
+        const auto [other, is_new] = others.emplace(spelling(path), what);
+        if (!is_new && !(other->second == what))
+            throw UsageError(fmt::format("{}: is {} and {}", path, other->second, what));
+    };
+    for (const std::string& manifest : files.manifests) take(manifest, "a manifest");
+    take(files.journal, "the journal");
+    take(files.report, "the report");
+    const auto check_model = [&](const Item& item) {
+        const std::string model = spelling(item.model);
+        const auto output = by_output.find(model);
+        if (output != by_output.end()) {
+            throw UsageError(fmt::format("{}: the output of {} would replace this model",
+                                         item.model, output->second->model));
+        }
+        const auto other = others.find(model);
+        // A manifest may be the model itself.
+        if (other != others.end() && other->second != "a manifest")
+            throw UsageError(
+                fmt::format("{}: {} would replace this model", item.model, other->second));
+    };
+    for (const Item& item : items) check_model(item);
+    for (const auto& [path, what] : others) {
+        const auto output = by_output.find(path);
+        if (output != by_output.end()) {
+            throw UsageError(fmt::format("{}: the output of {} is {} too", output->second->output,
+                                         output->second->model, what));
+        }
+    }
 }
 
 std::vector<Item> items_of_shard(const std::vector<Item>& items, const Shard& shard) {

@@ -54,6 +54,12 @@ batch::Task task_of(const Arguments& arguments, const Common& common) {
     return task;
 }
 
+std::string journal_of(const Arguments& arguments, const batch::Shard& shard) {
+    if (!arguments.journal.empty()) return arguments.journal;
+    return shard.count == 1 ? "batch.jsonl"
+                            : fmt::format("batch.{}-of-{}.jsonl", shard.number, shard.count);
+}
+
 std::vector<batch::Item> plan(const Arguments& arguments, const batch::Shard& shard) {
     std::vector<batch::Entry> entries;
     for (const std::string& manifest : arguments.manifests) {
@@ -66,13 +72,9 @@ std::vector<batch::Item> plan(const Arguments& arguments, const batch::Shard& sh
         output.path = item.output;
         format_of(output);  // refuses what cannot be written
     }
+    batch::check_files(items,
+                       {arguments.manifests, journal_of(arguments, shard), arguments.report});
     return batch::items_of_shard(items, shard);
-}
-
-std::string journal_of(const Arguments& arguments, const batch::Shard& shard) {
-    if (!arguments.journal.empty()) return arguments.journal;
-    return shard.count == 1 ? "batch.jsonl"
-                            : fmt::format("batch.{}-of-{}.jsonl", shard.number, shard.count);
 }
 
 // A hundred thousand lines of warnings help nobody: they are in the journal.
@@ -180,7 +182,8 @@ void add_journal_options(CLI::App& command, Arguments& arguments) {
     command
         .add_option("--thumbnails", arguments.run.thumbnails,
                     "Of the first so many items; they are kept in the journal")
-        ->capture_default_str();
+        ->capture_default_str()
+        ->check(length_or_zero());
     command.add_flag("--json", arguments.as_json, "Print the summary as JSON");
 }
 

@@ -125,7 +125,8 @@ int run_program(int argc, char** argv) {
         ->check(positive_length());
     app.add_option("--max-faces", common.reading.max_faces,
                    "Refuse models of more triangles, with exit code 7; 0: no bound")
-        ->capture_default_str();
+        ->capture_default_str()
+        ->check(length_or_zero());
     add_limit_options(app, common.limits);
     Run run;
     add_batch_command(app, common, run);

@@ -12,13 +12,14 @@ namespace {
 
 std::string ply_begin(const std::string& origin, std::size_t vertices) {
     return fmt::format(
-        "ply\nformat binary_little_endian 1.0\ncomment {}\nelement vertex {}\nproperty float x\n"
-        "property float y\nproperty float z\n",
+        "ply\nformat binary_little_endian 1.0\ncomment {}\nelement vertex {}\nproperty double x\n"
+        "property double y\nproperty double z\n",
         origin, vertices);
 }
 
+// In full: far from the origin a float's steps are wider than the model's edges.
 void append_point(std::string& out, const DVec3& p) {
-    for (int k = 0; k < 3; ++k) append_little_endian(out, static_cast<float>(p[k]));
+    for (int k = 0; k < 3; ++k) append_little_endian(out, p[k]);
 }
 
 }  // namespace
@@ -40,7 +41,7 @@ std::string write_ply_mesh(const std::vector<DVec3>& positions,
                           "element face {}\nproperty list uchar uint vertex_indices\n"
                           "end_header\n",
                           triangles.size());
-    out.reserve(out.size() + 12 * positions.size() + 13 * triangles.size());
+    out.reserve(out.size() + 24 * positions.size() + 13 * triangles.size());
     for (const DVec3& p : positions) append_point(out, p);
     for (const Triangle& t : triangles) {
         out.push_back(3);
@@ -55,7 +56,7 @@ std::string write_ply_points(const std::vector<DVec3>& positions, const std::vec
                       "property float nx\nproperty float ny\nproperty float nz\nend_header\n";
     for (std::size_t i = 0; i < positions.size(); ++i) {
         append_point(out, positions[i]);
-        append_point(out, normals[i]);
+        for (int k = 0; k < 3; ++k) append_little_endian(out, static_cast<float>(normals[i][k]));
     }
     return out;
 }

@@ -6,6 +6,13 @@
 #include "zskel/mesh/triangulate.h"
 
 namespace zskel {
+namespace {
+
+// For cutting polygons; what takes more is made to take long.
+constexpr std::size_t kLooks = 200'000'000;
+constexpr std::size_t kLooksPerCorner = 100;
+
+}  // namespace
 
 void MeshBuilder::reserve_faces(std::size_t faces) {
     sizes_.reserve(faces);
@@ -33,13 +40,14 @@ Mesh MeshBuilder::finish() {
     mesh.face_of_triangle.reserve(triangle_count);
     std::size_t begin = 0;
     std::size_t fans = 0;
+    std::size_t looks_left = kLooks + kLooksPerCorner * corners_.size();
     for (std::size_t face = 0; face < sizes_.size(); ++face) {
         const std::span corners(corners_.data() + begin, sizes_[face]);
-        fans += triangulate(positions, corners, mesh.triangles) ? 0 : 1;
+        fans += triangulate(positions, corners, mesh.triangles, looks_left) ? 0 : 1;
         mesh.face_of_triangle.resize(mesh.triangles.size(), static_cast<std::uint32_t>(face));
         begin += sizes_[face];
     }
-    warn(fans, "faces cross themselves or have no area; cut into fans");
+    warn(fans, "faces cross themselves, have no area, or take too long to cut; made fans");
     mesh.name = name_;
     mesh.face_count = sizes_.size();
     mesh.positions = std::move(positions);

@@ -7,6 +7,8 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <queue>
+#include <utility>
 
 #include "zskel/core/assert.h"
 
@@ -64,18 +66,22 @@ std::vector<glm::dvec2> flatten(std::span<const DVec3> positions,
 /// What is left of an outline while ears are cut from it: a ring of corners.
 class Outline {
   public:
-    Outline(std::vector<glm::dvec2> flat, std::span<const std::uint32_t> polygon)
+    Outline(std::vector<glm::dvec2> flat, std::span<const std::uint32_t> polygon,
+            std::size_t& looks_left)
         : flat_(std::move(flat)),
           polygon_(polygon),
+          looks_left_(looks_left),
           next_(polygon.size()),
           prev_(polygon.size()),
           by_x_(polygon.size()),
-          is_cut_(polygon.size(), false) {
+          is_cut_(polygon.size(), false),
+          asked_(polygon.size(), 0) {
         const auto n = static_cast<std::uint32_t>(polygon.size());
         for (std::uint32_t i = 0; i < n; ++i) {
             next_[i] = (i + 1) % n;
             prev_[i] = (i + n - 1) % n;
         }
+        for (std::uint32_t i = 0; i < n; ++i) ask(i);
         std::iota(by_x_.begin(), by_x_.end(), 0U);
         std::sort(by_x_.begin(), by_x_.end(),
                   [this](auto l, auto r) { return flat_[l].x < flat_[r].x; });
@@ -87,16 +93,31 @@ class Outline {
         return turn_at(flat_[prev_[corner]], flat_[corner], flat_[next_[corner]]);
     }
 
-    bool is_ear(std::uint32_t corner) const {
+    bool is_spent() const { return looks_left_ == 0; }
+
+    bool is_ear(std::uint32_t corner) {
+        if (is_spent()) return false;
+        --looks_left_;
         if (turn(corner) != Turn::Left) return false;
         const auto [low, high] =
             std::minmax({flat_[prev_[corner]].x, flat_[corner].x, flat_[next_[corner]].x});
         auto at = std::lower_bound(by_x_.begin(), by_x_.end(), low,
                                    [this](auto i, double x) { return flat_[i].x < x; });
-        for (; at != by_x_.end() && flat_[*at].x <= high; ++at) {
+        for (; at != by_x_.end() && flat_[*at].x <= high && !is_spent(); ++at) {
+            --looks_left_;
             if (!is_cut_[*at] && blocks(corner, *at)) return false;
         }
-        return true;
+        return !is_spent();
+    }
+
+    /// The ear that was asked for longest ago; kNone when there is none among those.
+    std::uint32_t take_ear() {
+        while (!queue_.empty() && !is_spent()) {
+            const auto [corner, turn] = queue_.front();
+            queue_.pop();
+            if (!is_cut_[corner] && asked_[corner] == turn && is_ear(corner)) return corner;
+        }
+        return kNone;
     }
 
     Triangle cut(std::uint32_t corner) {
@@ -105,10 +126,24 @@ class Outline {
         next_[before] = after;
         prev_[after] = before;
         is_cut_[corner] = true;
+        // Only here can new ears be. Last, which spreads ears over the outline and keeps them
+        // small.
+        ask(before);
+        ask(after);
+        // Ears get wider while corners get fewer.
+        if (2 * ++cut_in_list_ > by_x_.size()) {
+            std::erase_if(by_x_, [this](std::uint32_t i) { return is_cut_[i]; });
+            cut_in_list_ = 0;
+        }
         return {polygon_[before], polygon_[corner], polygon_[after]};
     }
 
   private:
+    void ask(std::uint32_t corner) {
+        asked_[corner] = ++asked_so_far_;
+        queue_.emplace(corner, asked_so_far_);
+    }
+
     /// True when corner i lies in or on the triangle at `ear`, but on none of its corners.
     bool blocks(std::uint32_t ear, std::uint32_t i) const {
         const glm::dvec2& a = flat_[prev_[ear]];
@@ -124,41 +159,40 @@ class Outline {
 
     std::vector<glm::dvec2> flat_;
     std::span<const std::uint32_t> polygon_;
+    std::size_t& looks_left_;
     std::vector<std::uint32_t> next_;
     std::vector<std::uint32_t> prev_;
     std::vector<std::uint32_t>
         by_x_;  // corners from left to right: ears are narrow, few lie below one
     std::vector<bool> is_cut_;
+    std::size_t cut_in_list_ = 0;                              // of by_x_
+    std::queue<std::pair<std::uint32_t, std::size_t>> queue_;  // corners to look at, and when asked
+    std::vector<std::size_t> asked_;                           // of every corner: when last
+    std::size_t asked_so_far_ = 0;
 };
 
-/// The first corner from `start` on that can be cut; kNone when there is none.
-std::uint32_t find_cut(const Outline& outline, std::uint32_t start, std::size_t left) {
+/// A corner that can be cut; kNone when there is none, or none was found in time.
+std::uint32_t find_cut(Outline& outline, std::uint32_t start, std::size_t left) {
+    const std::uint32_t ear = outline.take_ear();
+    if (ear != kNone) return ear;
     std::uint32_t corner = start;
-    for (std::size_t i = 0; i < left; ++i, corner = outline.next(corner)) {
-        if (outline.is_ear(corner)) return corner;
-    }
-    for (std::size_t i = 0; i < left; ++i, corner = outline.next(corner)) {
-        if (outline.turn(corner) == Turn::Straight) return corner;
+    for (std::size_t i = 0; i < left && !outline.is_spent(); ++i, corner = outline.next(corner)) {
+        if (outline.turn(corner) == Turn::Straight || outline.is_ear(corner)) return corner;
     }
     return kNone;
 }
 
 bool clip_ears(Outline outline, std::size_t corners, std::vector<Triangle>& triangles) {
-    std::uint32_t at = 0;
+    std::uint32_t hub = 0;
     bool proper = true;
     for (std::size_t left = corners; left > 3; --left) {
-        std::uint32_t corner = proper ? find_cut(outline, at, left) : outline.next(at);
-        if (corner == kNone) {
-            proper = false;
-            corner = outline.next(at);
-        }
-        // A fan keeps its hub; proper cutting goes on two corners behind the cut, which spreads
-        // ears over the outline and keeps them small.
-        const std::uint32_t behind = outline.next(outline.next(corner));
+        std::uint32_t corner = proper ? find_cut(outline, hub, left) : kNone;
+        proper = corner != kNone;
+        if (!proper) corner = outline.next(hub);
+        if (proper) hub = outline.next(corner);
         triangles.push_back(outline.cut(corner));
-        if (proper) at = behind;
     }
-    triangles.push_back(outline.cut(outline.next(at)));
+    triangles.push_back(outline.cut(outline.next(hub)));
     return proper;
 }
 
@@ -191,7 +225,7 @@ void fan(std::span<const std::uint32_t> polygon, std::vector<Triangle>& triangle
 }  // namespace
 
 bool triangulate(std::span<const DVec3> positions, std::span<const std::uint32_t> polygon,
-                 std::vector<Triangle>& triangles) {
+                 std::vector<Triangle>& triangles, std::size_t& looks_left) {
     ZSKEL_ASSERT(polygon.size() >= 3, "a polygon has three corners or more");
     if (polygon.size() == 3) {
         triangles.emplace_back(polygon[0], polygon[1], polygon[2]);
@@ -206,8 +240,8 @@ bool triangulate(std::span<const DVec3> positions, std::span<const std::uint32_t
     }
     normal /= size;
     if (polygon.size() == 4) return split_quad(positions, polygon, normal, triangles);
-    return clip_ears(Outline(flatten(positions, polygon, normal), polygon), polygon.size(),
-                     triangles);
+    return clip_ears(Outline(flatten(positions, polygon, normal), polygon, looks_left),
+                     polygon.size(), triangles);
 }
 
 }  // namespace zskel

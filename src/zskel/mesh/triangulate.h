@@ -12,9 +12,12 @@ namespace zskel {
 /// Concave polygons are cut inside their outline; the plane is the one of Newell's normal.
 /// @param positions  of all vertices; the polygon's own are looked up.
 /// @param polygon    at least three vertex numbers, in order; may repeat and lie on a line.
-/// @return false where no proper cut exists (the outline crosses itself, or has no area): then a
-/// fan.
+/// @param looks_left  how often a corner may still be looked at; counts down. A polygon of n
+/// corners
+///     takes about n log n looks, some take n^2.
+/// @return false where no proper cut exists (the outline crosses itself, or has no area), or none
+/// was found with the looks that are left: then the rest is a fan.
 bool triangulate(std::span<const DVec3> positions, std::span<const std::uint32_t> polygon,
-                 std::vector<Triangle>& triangles);
+                 std::vector<Triangle>& triangles, std::size_t& looks_left);
 
 }  // namespace zskel
