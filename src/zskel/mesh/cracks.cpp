@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <limits>
 #include <unordered_map>
 
@@ -13,6 +14,7 @@ namespace zskel {
 namespace {
 
 constexpr double kShareOfEdge = 0.25;
+constexpr double kLeastReach = 1e-9;   // of the tolerance
 constexpr int kMostRounds = 4;         // of splitting: a triangle's sides one after the other
 constexpr double kMostCells = 4096.0;  // looked at along one edge
 
@@ -71,19 +73,34 @@ std::size_t weld_boundary(WeldedMesh& mesh, const std::vector<Side>& boundary, d
     const std::vector<std::uint32_t> places = places_on(boundary);
     std::vector<double> reach(mesh.positions.size(), tolerance);
     for (const Side& side : boundary) {
-        const double length = kShareOfEdge * length_of(mesh, side.edge);
+        const double length =
+            std::max(kShareOfEdge * length_of(mesh, side.edge), kLeastReach * tolerance);
         for (const std::uint32_t p : {side.edge.x, side.edge.y})
             reach[p] = std::min(reach[p], length);
     }
-    const PlaceGrid grid(mesh, places, tolerance);
     DisjointSets sets(mesh.positions.size());
     std::size_t merged = 0;
-    for (const std::uint32_t p : places) {
-        grid.near(mesh.positions[p], [&](std::uint32_t q) {
-            const double most = std::min(reach[p], reach[q]);
-            if (q < p && glm::distance(mesh.positions[p], mesh.positions[q]) <= most)
-                merged += sets.unite(p, q) ? 1 : 0;
-        });
+    // Of two places the one with the shorter reach finds the other. Reaches that halve have grids
+    // of their own: in one for all a small part of a wide model would be a single cell.
+    std::vector<std::uint32_t> searching = places;
+    for (double cell = tolerance; !searching.empty(); cell *= 0.5) {
+        std::vector<std::uint32_t> shorter;
+        std::vector<std::uint32_t> here;
+        for (const std::uint32_t p : searching)
+            (reach[p] <= 0.5 * cell ? shorter : here).push_back(p);
+        searching = std::move(shorter);
+        if (here.empty()) continue;
+        std::vector<std::uint32_t> others;
+        std::copy_if(places.begin(), places.end(), std::back_inserter(others),
+                     [&](std::uint32_t p) { return reach[p] > 0.5 * cell; });
+        const PlaceGrid grid(mesh, others, cell);
+        for (const std::uint32_t p : here) {
+            grid.near(mesh.positions[p], [&](std::uint32_t q) {
+                if (glm::distance(mesh.positions[p], mesh.positions[q]) <=
+                    std::min(reach[p], reach[q]))
+                    merged += sets.unite(p, q) ? 1 : 0;
+            });
+        }
     }
     if (merged == 0) return 0;
     std::vector<std::uint32_t> number(mesh.positions.size());
@@ -118,9 +135,11 @@ std::vector<std::uint32_t> places_along(const WeldedMesh& mesh, const PlaceGrid&
 
 // Once for each triangle at most, since its other sides are then another's.
 std::size_t split_boundary(WeldedMesh& mesh, const std::vector<Side>& boundary, double tolerance) {
-    double sum = 0.0;
-    for (const Side& side : boundary) sum += length_of(mesh, side.edge);
-    const double step = std::max(sum / static_cast<double>(boundary.size()), 4.0 * tolerance);
+    std::vector<double> lengths;
+    for (const Side& side : boundary) lengths.push_back(length_of(mesh, side.edge));
+    const auto middle = lengths.begin() + static_cast<std::ptrdiff_t>(lengths.size() / 2);
+    std::nth_element(lengths.begin(), middle, lengths.end());
+    const double step = std::max(*middle, 4.0 * tolerance);
     const PlaceGrid grid(mesh, places_on(boundary), step);
     std::vector<bool> is_split(mesh.triangles.size(), false);
     std::size_t count = 0;
