@@ -261,9 +261,14 @@ BackendOptions backend_options_for(const Mesh& mesh, const ExtractOptions& optio
 
 namespace {
 
+constexpr double kLeastHandleVoxels = 2.0;
+
 // Of the parts' union; vertices go by the nearest of its surface.
 ExtractResult extract_joined(const Mesh& mesh, ExtractOptions options, Backend& backend) {
     const JoinedMesh joined = join_parts(mesh, options.repair, *std::exchange(options.join, {}));
+    // Where parts touch, sampling makes holes of about a voxel.
+    options.newton.min_handle_model =
+        std::max(options.newton.min_handle_model, kLeastHandleVoxels * joined.voxel_model);
     ExtractResult result = extract_skeleton(joined.mesh, options, backend);
     std::vector<std::uint32_t> vertex_node;
     vertex_node.reserve(joined.nearest.size());

@@ -3,10 +3,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <atomic>
 #include <numbers>
 #include <unordered_set>
 #include <utility>
 
+#include "zskel/core/disjoint_sets.h"
 #include "zskel/core/error.h"
 #include "zskel/core/lattice_hash.h"
 #include "zskel/core/parallel.h"
@@ -21,6 +23,7 @@ namespace {
 constexpr double kVoxels = 160.0;  // along the longest side, unless said otherwise
 constexpr double kMostVoxels = 2048.0;
 constexpr double kLeastDepth = 1e-3;  // voxels
+constexpr double kThinVoid = 2.0;     // voxels
 constexpr int kPlaces = kLevelSetBlock * kLevelSetBlock * kLevelSetBlock;
 
 class Sampler {
@@ -113,12 +116,45 @@ class Sampler {
     std::vector<glm::ivec3> next_;
 };
 
+// Voids so thin that parts meet there but for the sampling.
+std::size_t fill_thin_voids(LevelSetMesh& mesh) {
+    DisjointSets parts(mesh.positions.size());
+    for (const Triangle& t : mesh.triangles) {
+        parts.unite(t.x, t.y);
+        parts.unite(t.x, t.z);
+    }
+    std::vector<double> volume(mesh.positions.size(), 0.0);
+    std::vector<double> area(mesh.positions.size(), 0.0);
+    for (const Triangle& t : mesh.triangles) {
+        const DVec3& a = mesh.positions[t.x];
+        const DVec3 normal = glm::cross(mesh.positions[t.y] - a, mesh.positions[t.z] - a);
+        volume[parts.find(t.x)] += glm::dot(a, normal) / 6.0;
+        area[parts.find(t.x)] += 0.5 * glm::length(normal);
+    }
+    const auto is_thin = [&](std::uint32_t part) {
+        return volume[part] < 0.0 && -volume[part] < 0.5 * kThinVoid * area[part];
+    };
+    std::size_t voids = 0;
+    for (std::uint32_t v = 0; v < mesh.positions.size(); ++v)
+        voids += parts.find(v) == v && is_thin(v) ? 1 : 0;
+    if (voids == 0) return 0;
+    std::erase_if(mesh.triangles, [&](const Triangle& t) { return is_thin(parts.find(t.x)); });
+    std::vector<std::uint32_t> number(mesh.positions.size(), kNone);
+    std::vector<DVec3> kept;
+    for (std::uint32_t v = 0; v < number.size(); ++v) {
+        if (is_thin(parts.find(v))) continue;
+        number[v] = static_cast<std::uint32_t>(kept.size());
+        kept.push_back(mesh.positions[v]);
+    }
+    mesh.positions = std::move(kept);
+    for (Triangle& t : mesh.triangles) t = {number[t.x], number[t.y], number[t.z]};
+    return voids;
+}
+
 }  // namespace
 
 JoinedMesh join_parts(const Mesh& mesh, const RepairOptions& repair, const JoinOptions& options) {
-    RepairOptions as_it_is = repair;
-    as_it_is.has_caps = false;
-    const PreparedSurface prepared = prepare_surface(mesh, WorldSize::UnitCube, as_it_is);
+    const PreparedSurface prepared = prepare_surface(mesh, WorldSize::UnitCube, repair);
     const Similarity& to_world = prepared.surface.world_from_model;
     const double longest = box_of(prepared.surface.positions).longest();
     const double side =
@@ -134,10 +170,13 @@ JoinedMesh join_parts(const Mesh& mesh, const RepairOptions& repair, const JoinO
     if (surface.triangles.empty())
         throw InputError(fmt::format("{}: no part has an inside to join", mesh.name));
     JoinedMesh out;
+    out.voxel_model = to_world.length_to_model(side);
     out.repairs = prepared.repairs;
-    out.repairs.push_back({fmt::format("parts joined by their winding number, in voxels of {:.3g}",
-                                       to_world.length_to_model(side)),
-                           prepared.component_count});
+    out.repairs.push_back(
+        {fmt::format("parts joined by their winding number, in voxels of {:.3g}", out.voxel_model),
+         prepared.component_count});
+    note(out.repairs, "voids between parts filled: thinner than two voxels",
+         fill_thin_voids(surface));
     out.mesh.name = mesh.name;
     out.mesh.hash = mesh.hash;
     out.mesh.warnings = mesh.warnings;
@@ -151,14 +190,19 @@ JoinedMesh join_parts(const Mesh& mesh, const RepairOptions& repair, const JoinO
     joined.triangles = out.mesh.triangles;
     derive_normals(joined);
     const SurfaceQuery query(joined);
+    const WindingTree winding(joined.positions, joined.triangles);
+    std::atomic<std::size_t> lost = 0;
     out.nearest.resize(mesh.positions.size(), kNone);
     parallel_for(mesh.positions.size(), 64, [&](std::size_t begin, std::size_t end) {
         for (std::size_t v = begin; v < end; ++v) {
             if (prepared.surface_vertex[v] == kNone) continue;
             const Vec3 p = to_world.to_world(mesh.positions[v]);
-            out.nearest[v] = joined.triangles[query.nearest(p).triangle].x;
+            const SurfaceQuery::Nearest nearest = query.nearest(p);
+            out.nearest[v] = joined.triangles[nearest.triangle].x;
+            if (static_cast<double>(nearest.distance) > side && winding.at(DVec3(p)) < 0.5) ++lost;
         }
     });
+    note(out.repairs, "vertices lost: of parts thinner than a voxel (--join-voxel)", lost);
     return out;
 }
 
