@@ -1,4 +1,5 @@
 #include "zskel/mesh/check.h"
+#include "support/shapes.h"
 
 #include <doctest/doctest.h>
 
@@ -201,6 +202,19 @@ TEST_CASE("check_mesh: a fin on a cube is a non-manifold edge") {
     check_defect(report, "non_manifold_edges", 1, "edge 0-1");
     CHECK_FALSE(report.genus.has_value());
     CHECK(report.boundary_loops == 1);
+}
+
+TEST_CASE("check_mesh: faces that pass through others are counted") {
+    const Mesh ball = test::sphere(0.5, 2);
+    CHECK(check_mesh(ball).crossing_triangles == 0);
+    const Mesh apart = test::together(ball, test::moved(ball, {2.0, 0.0, 0.0}));
+    CHECK(check_mesh(apart).crossing_triangles == 0);
+    const Mesh crossing = test::together(ball, test::moved(ball, {0.7, 0.01, 0.02}));
+    const MeshReport report = check_mesh(crossing);
+    CHECK(report.crossing_triangles > 10);
+    CHECK(report.crossing_triangles < 100);
+    REQUIRE(report.defects.size() == 1);
+    CHECK(report.defects.front().name == "crossing_triangles");
 }
 
 TEST_CASE("check_mesh: a Moebius strip is not orientable") {

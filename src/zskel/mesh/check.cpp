@@ -8,6 +8,7 @@
 #include <limits>
 #include <numeric>
 
+#include "zskel/mesh/self_intersections.h"
 #include "zskel/mesh/topology.h"
 #include "zskel/mesh/weld.h"
 
@@ -45,6 +46,7 @@ class MeshChecker {
         drop_degenerate();
         drop_duplicates();
         note_flat();
+        note_crossing();
         topology_ = find_topology(welded_.places.size(), welded_.triangles);
         note_edges();
         measure_components();
@@ -99,6 +101,17 @@ class MeshChecker {
         note("coincident_vertices", report_.coincident_vertices,
              fmt::format("vertex {}", first_coincident),
              "welded to the first one at the same position");
+    }
+
+    void note_crossing() {
+        const std::vector<std::uint32_t> crossing =
+            crossing_triangles(welded_.places, welded_.triangles);
+        report_.crossing_triangles = crossing.size();
+        if (crossing.empty()) return;
+        note("crossing_triangles", crossing.size(), face_name(welded_.source[crossing.front()]),
+             "kept: within a solid the inside is where its winding number is not 0; --join makes "
+             "one "
+             "surface of what overlaps");
     }
 
     void drop_degenerate() {

@@ -1,6 +1,5 @@
 #include "zskel/mesh/self_intersections.h"
 
-#include <algorithm>
 #include <atomic>
 #include <cmath>
 #include <limits>
@@ -85,8 +84,8 @@ void bound(const RTCBoundsFunctionArguments* arguments) {
 
 }  // namespace
 
-std::size_t count_crossing_triangles(const std::vector<DVec3>& positions,
-                                     const std::vector<Triangle>& triangles) {
+std::vector<std::uint32_t> crossing_triangles(const std::vector<DVec3>& positions,
+                                              const std::vector<Triangle>& triangles) {
     Triangles all{positions, triangles, std::vector<std::atomic<bool>>(triangles.size())};
     const EmbreeDevice device = open_embree();
     const EmbreeHierarchy scene(rtcNewScene(device.get()));
@@ -99,7 +98,11 @@ std::size_t count_crossing_triangles(const std::vector<DVec3>& positions,
     rtcReleaseGeometry(geometry);
     build_hierarchy(scene.get(), device.get());
     rtcCollide(scene.get(), scene.get(), visit_pairs, &all);
-    return static_cast<std::size_t>(std::count(all.crosses.begin(), all.crosses.end(), true));
+    std::vector<std::uint32_t> crossing;
+    for (std::uint32_t t = 0; t < triangles.size(); ++t) {
+        if (all.crosses[t]) crossing.push_back(t);
+    }
+    return crossing;
 }
 
 }  // namespace zskel
