@@ -9,6 +9,7 @@
 #include "support/box.h"
 #include "support/extract.h"
 #include "support/shapes.h"
+#include "support/voxels.h"
 #include "zskel/core/error.h"
 #include "zskel/join.h"
 #include "zskel/mesh/outlook.h"
@@ -149,6 +150,53 @@ TEST_CASE("repair: two boxes that touch along an edge are two solids") {
     }
 }
 
+TEST_CASE("repair: a ring that only touches itself along an edge is none, however it is turned") {
+    // Eight cubes round a hole, but for one corner: two of the others meet there in an edge.
+    const Mesh block = test::voxels(
+        {3, 3, 1}, 2, [](int x, int y, int) { return !(x == 1 && y == 1) && !(x == 0 && y == 0); });
+    for (const double angle : {0.0, 0.2, 0.6, 1.3, 2.1}) {
+        for (const double stretch : {0.4, 1.0, 2.5}) {
+            for (const bool is_turned : {false, true}) {
+                Mesh turned = block;
+                for (DVec3& p : turned.positions) {
+                    const double y = p.y * stretch;
+                    p = {p.x * std::cos(angle) - y * std::sin(angle),
+                         p.x * std::sin(angle) + y * std::cos(angle), p.z};
+                }
+                if (is_turned) turned = test::turned_inside_out(turned);
+                const PreparedSurface surface = prepared(turned);
+                CHECK(count_of(surface.repairs, "parted") == 2);
+                CHECK(all_closed(surface));
+                const Topology topology =
+                    find_topology(surface.surface.positions.size(), surface.surface.triangles);
+                REQUIRE(topology.components.size() == 1);
+                CHECK(topology.components.front().genus == 0);
+            }
+        }
+    }
+}
+
+TEST_CASE("repair: a fin that forks is left out whole") {
+    Mesh fin = test::finer(test::cube());
+    const Triangle t = fin.triangles[40];
+    const DVec3 up = fin.positions[t.x] * 1.1;
+    const auto add = [&](const DVec3& p) {
+        fin.positions.push_back(p);
+        return static_cast<std::uint32_t>(fin.positions.size() - 1);
+    };
+    const std::uint32_t a = add(up);
+    const std::uint32_t b = add(fin.positions[t.y] * 1.1);
+    const std::uint32_t left = add(up + DVec3(0.02, 0.01, 0.0));
+    const std::uint32_t right = add(up - DVec3(0.02, 0.01, 0.0));
+    test::add_triangle(fin, t.x, t.y, a);
+    test::add_triangle(fin, t.y, b, a);
+    test::add_triangle(fin, a, b, left);
+    test::add_triangle(fin, a, b, right);
+    const PreparedSurface surface = prepared(fin);
+    CHECK(count_of(surface.repairs, "hang loose") == 4);
+    CHECK(all_closed(surface));
+}
+
 TEST_CASE("caps: a hole is filled with the least area, whatever its outline") {
     // An L-shaped hole in a cube's top, by the corners of a 4 x 4 grid.
     Mesh mesh = without(test::finer(test::cube()), [](const DVec3& p) {
@@ -265,4 +313,29 @@ TEST_CASE("join_parts: balls that overlap are one, with every vertex on it") {
     CHECK(result.graph.vertex_node.size() == balls.positions.size());
     for (const std::uint32_t node : result.graph.vertex_node)
         CHECK(node < result.graph.nodes.size());
+}
+
+TEST_CASE("join_parts: where boxes abut or touch there is neither a void nor a cycle") {
+    ExtractOptions options;
+    options.join = JoinOptions{};
+    for (const double gap : {0.0, 1e-3}) {
+        const Mesh boxes = test::together(test::make_box({0, 0, 0}, {1, 1, 1}),
+                                          test::make_box({1 + gap, 0.2, 0.3}, {2, 0.9, 0.8}));
+        const ExtractResult result = test::extract(boxes, options);
+        CHECK(result.statistics.cavities == 0);
+        CHECK(result.check.components == 1);
+        CHECK(result.check.cycles == 0);
+    }
+    const Mesh edge =
+        test::together(test::make_box({0, 0, 0}, {1, 1, 1}), test::make_box({1, 1, 0}, {2, 2, 1}));
+    CHECK(test::extract(edge, options).check.cycles == 0);
+}
+
+TEST_CASE("join_parts: a part thinner than a voxel is lost, and said to be") {
+    const Mesh rod = test::together(test::make_box({0, 0, 0}, {1, 1, 1}),
+                                    test::make_box({0.499, 0.499, 0.5}, {0.501, 0.501, 4.5}));
+    const JoinedMesh joined = join_parts(rod, {}, {});
+    CHECK(count_of(joined.repairs, "vertices lost") == 4);
+    const JoinedMesh finer = join_parts(test::sphere(0.5, 2), {}, {});
+    CHECK(count_of(finer.repairs, "vertices lost") == 0);
 }

@@ -62,7 +62,8 @@ struct Patches {
             joined_area[of_triangle[t]] = part_area[parts.find(t)];
     }
 
-    // Leaves the candidates out that no crowded edge needs: two others stay there at least.
+    // Leaves the candidates out that no crowded edge needs: two others stay there at least, or none
+    // but candidates meet there.
     std::size_t drop(WeldedMesh& mesh, std::vector<bool> is_candidate) const {
         std::vector<bool> touches(area.size(), false);
         for (const auto& [first, last] : crowded) {
@@ -72,7 +73,7 @@ struct Patches {
             for (std::size_t i = first; i < last; ++i) {
                 const std::uint32_t patch = of_triangle[sides[i].triangle];
                 touches[patch] = true;
-                if (others < 2) is_candidate[patch] = false;
+                if (others == 1) is_candidate[patch] = false;
             }
         }
         std::vector<bool> dropped(of_triangle.size(), false);
@@ -138,10 +139,22 @@ std::vector<std::pair<double, std::size_t>> round_edge(const WeldedMesh& mesh,
     return out;
 }
 
+// Whether most of what the triangles bound is behind their fronts.
+bool is_inside_out(const WeldedMesh& mesh) {
+    double volume = 0.0;
+    for (const Triangle& t : mesh.triangles) {
+        const DVec3& origin = mesh.positions.front();
+        volume += glm::dot(mesh.positions[t.x] - origin,
+                           glm::cross(mesh.positions[t.y] - origin, mesh.positions[t.z] - origin));
+    }
+    return volume < 0.0;
+}
+
 // Pairs of sides at a crowded edge; none where their number is odd.
+// @param is_turned  the triangles' fronts are inside.
 std::vector<std::pair<std::size_t, std::size_t>> pairs_at(const WeldedMesh& mesh,
-                                                          const Patches& patches, std::size_t first,
-                                                          std::size_t last) {
+                                                          const Patches& patches, bool is_turned,
+                                                          std::size_t first, std::size_t last) {
     if ((last - first) % 2 == 1) return {};
     std::map<std::uint32_t, std::vector<std::size_t>> by_patch;
     for (std::size_t i = first; i < last; ++i)
@@ -161,7 +174,16 @@ std::vector<std::pair<std::size_t, std::size_t>> pairs_at(const WeldedMesh& mesh
         }
         return sum;
     };
-    const std::size_t start = wedges(1) < wedges(0) ? 1 : 0;
+    // Where fronts and backs take turns, the pairs are those with the solid between them; a side
+    // that runs backward along the edge has it at the larger angles.
+    const auto opens = [&](std::size_t i) {
+        return patches.sides[round[i % round.size()].second].is_forward == is_turned;
+    };
+    bool takes_turns = true;
+    for (std::size_t i = 0; i < round.size(); ++i)
+        takes_turns = takes_turns && opens(i) != opens(i + 1);
+    const bool is_second = takes_turns ? !opens(0) : wedges(1) < wedges(0);
+    const std::size_t start = is_second ? 1 : 0;
     pairs.clear();
     for (std::size_t i = start; i < start + round.size(); i += 2)
         pairs.emplace_back(round[i % round.size()].second, round[(i + 1) % round.size()].second);
@@ -178,11 +200,12 @@ std::size_t part_pairs(WeldedMesh& mesh) {
         fans.unite(patches.sides[i].high_corner(), patches.sides[k].high_corner());
     };
     std::vector<bool> is_at_crowd(mesh.positions.size(), false);
+    const bool is_turned = is_inside_out(mesh);
     std::size_t paired = 0;
     for_each_edge(patches.sides, [&](std::size_t first, std::size_t last) {
         if (last - first == 2) unite(first, first + 1);
         if (last - first <= 2) return;
-        const auto pairs = pairs_at(mesh, patches, first, last);
+        const auto pairs = pairs_at(mesh, patches, is_turned, first, last);
         for (const auto& [i, k] : pairs) unite(i, k);
         for (std::size_t i = first + 1; i < last && pairs.empty(); ++i) unite(first, i);
         paired += pairs.empty() ? 0 : 1;
