@@ -211,3 +211,19 @@ TEST_CASE("property: triangles split in three change no topology, and the skelet
         expect_same(shape, test::extract(mesh, {}, kFacePx).graph, 0.01);
     }));
 }
+
+TEST_CASE("property: faces that are missing are made up for") {
+    CHECK(rc::check([] {
+        const Shape& shape = any_shape();
+        Mesh mesh = shape.mesh;
+        for (int holes = *rc::gen::inRange(1, 4); holes > 0; --holes) {
+            const auto at = *rc::gen::inRange<std::size_t>(0, mesh.triangles.size());
+            mesh.triangles.erase(mesh.triangles.begin() + static_cast<std::ptrdiff_t>(at));
+        }
+        ExtractOptions options;
+        options.repair.has_caps = true;
+        const ExtractResult result = test::extract(mesh, options, kFacePx);
+        RC_ASSERT(result.statistics.openings > 0u);
+        expect_same(shape, result.graph, 0.01);
+    }));
+}

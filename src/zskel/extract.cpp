@@ -241,6 +241,13 @@ void add_warnings(const Mesh& mesh, const std::vector<Solid>& solids, const Extr
                                                   result.seeds.size(), name_of(state)));
         }
     }
+    const std::size_t most = SpreadOptions{}.max_seeds;
+    if (result.statistics.seed_end == SpreadEnd::Limit && options.newton.spread.max_seeds == most) {
+        result.warnings.push_back(fmt::format(
+            "more than {} seeds would be needed: some limbs are {:.2g} of their thickness from the "
+            "next; --seeds allows more",
+            most, result.statistics.seed_spacing_thickness));
+    }
     for (const std::string& failure : result.check.failures)
         result.warnings.push_back("self-check: " + failure);
     if (is_amiss) add_crossing_warning(mesh, result);

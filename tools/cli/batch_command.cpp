@@ -1,5 +1,6 @@
 // zskel batch: many models, one worker process a core, a journal that a later run goes on from.
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <unistd.h>
 
 #include <cerrno>
@@ -65,6 +66,10 @@ std::vector<batch::Item> plan(const Arguments& arguments, const batch::Shard& sh
     for (const std::string& manifest : arguments.manifests) {
         for (batch::Entry& entry : batch::read_manifest(manifest, arguments.recursive))
             entries.push_back(std::move(entry));
+    }
+    if (entries.empty()) {
+        throw InputError(
+            fmt::format("{}: no model is named", fmt::join(arguments.manifests, ", ")));
     }
     const std::vector<batch::Item> items = batch::plan_items(entries, arguments.output.path);
     for (const batch::Item& item : items) {
@@ -136,6 +141,8 @@ ExitCode run_batch(const Arguments& given, const Common& common) {
     write_report(arguments, items, journal, result.tally);
     print(arguments.as_json ? batch::summary_json(result.tally)
                             : batch::summary_text(result.tally));
+    if (!arguments.as_json && result.tally.failed > 0)
+        print(fmt::format("which, and why: {}\n", journal_of(arguments, shard)));
     if (result.signal != 0) end_by(result.signal);
     return result.tally.failed > 0 ? ExitCode::Check : ExitCode::Ok;
 }

@@ -2,6 +2,7 @@
 // what a batch can count on.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <nlohmann/json.hpp>
 
 #include "batch/machine.h"
@@ -89,6 +90,9 @@ ExitCode diagnose(bool as_json) {
     const auto first =
         std::find_if(all.begin(), all.end(), [](const gl::Diagnosis& d) { return d.usable; });
     const std::string taken = first == all.end() ? "" : std::string(gl::name_of(first->info.kind));
+    const bool has_gpu = std::any_of(all.begin(), all.end(), [](const gl::Diagnosis& d) {
+        return d.usable && d.info.kind == gl::ContextKind::EglHardware;
+    });
     if (as_json) {
         Json candidates = Json::array();
         for (const gl::Diagnosis& found : all) candidates.push_back(to_json(found));
@@ -99,7 +103,7 @@ ExitCode diagnose(bool as_json) {
             {"candidates", candidates},
             {"gl_takes", taken.empty() ? Json(nullptr) : Json(taken)},
             {"cpu", {{"instruction_set", cpu_instruction_set()}}},
-            {"auto_takes", "cpu"},
+            {"auto_takes", has_gpu ? "cpu or gpu" : "cpu"},
             {"batch", batch_json()}};
         print(out.dump(2) + "\n");
         return ExitCode::Ok;
@@ -110,8 +114,9 @@ ExitCode diagnose(bool as_json) {
     text += fmt::format("--backend gl takes: {}\n", taken.empty() ? "nothing; it fails" : taken);
     text += fmt::format(
         "The CPU's Z-buffer (registers: {}) and rays (Embree) always work.\n"
-        "--backend auto takes: cpu\n",
-        cpu_instruction_set());
+        "--backend auto takes: {}\n",
+        cpu_instruction_set(),
+        has_gpu ? "cpu, or the GPU for as much work as pays for opening it" : "cpu");
     print(text + batch_text());
     return ExitCode::Ok;
 }

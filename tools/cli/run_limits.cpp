@@ -36,7 +36,8 @@ void add_limit_options(CLI::App& app, Limits& limits) {
         ->check(CLI::Range(0.0, 1e8));
     app.add_option("--max-memory", limits.max_memory_mb,
                    "Give up, with exit code 7 and no output, when more than so many megabytes are "
-                   "needed; 0: no bound")
+                   "needed, of which any model takes about 200, reserved rather than used; 0: no "
+                   "bound")
         ->capture_default_str()
         ->check(length_or_zero())
         ->check(CLI::Range(0.0, 1e9));

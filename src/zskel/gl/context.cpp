@@ -23,6 +23,8 @@
 namespace zskel::gl {
 namespace {
 
+constexpr int kMostErrors = 100;  // that are taken off a context: a broken one may never stop
+
 std::string_view error_name(GLenum error) {
     switch (error) {
         case GL_INVALID_ENUM:
@@ -238,7 +240,7 @@ class ThreadContext : public Context {
                                       info_.renderer, blame_of(reset), said_));
         }
         if (error == GL_NO_ERROR) return;
-        while (api.GetError() != GL_NO_ERROR) {
+        for (int i = 0; i < kMostErrors && api.GetError() != GL_NO_ERROR; ++i) {
         }
         throw GlError(fmt::format("{} failed with {} on {}{}", stage_, error_name(error),
                                   info_.renderer, said_));
