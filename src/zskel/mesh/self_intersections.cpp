@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "zskel/core/embree.h"
+#include "zskel/core/loop_order.h"
 
 namespace zskel {
 namespace {
@@ -13,6 +14,7 @@ struct Triangles {
     const std::vector<DVec3>& positions;
     const std::vector<Triangle>& triangles;
     std::vector<std::atomic<bool>> crosses;
+    LoopOrder order;  // of Embree's threads, which call what follows
 };
 
 double side_of(const DVec3& a, const DVec3& b, const DVec3& c, const DVec3& p) {
@@ -49,6 +51,7 @@ bool edge_passes(const Triangles& all, const Triangle& one, const Triangle& othe
 // Of two triangles whose boxes meet; called by several threads at once.
 void visit_pairs(void* user, RTCCollision* pairs, unsigned count) {
     auto& all = *static_cast<Triangles*>(user);
+    all.order.begin_body();
     for (unsigned i = 0; i < count; ++i) {
         const std::uint32_t a = pairs[i].primID0;
         const std::uint32_t b = pairs[i].primID1;
@@ -59,12 +62,14 @@ void visit_pairs(void* user, RTCCollision* pairs, unsigned count) {
         all.crosses[a] = true;
         all.crosses[b] = true;
     }
+    all.order.end_body();
 }
 
 // The box in floats, rounded outwards.
 void bound(const RTCBoundsFunctionArguments* arguments) {
     constexpr float kInfinity = std::numeric_limits<float>::infinity();
-    const auto& all = *static_cast<const Triangles*>(arguments->geometryUserPtr);
+    auto& all = *static_cast<Triangles*>(arguments->geometryUserPtr);
+    all.order.begin_body();
     const Triangle& t = all.triangles[arguments->primID];
     const DVec3& a = all.positions[t.x];
     const DVec3& b = all.positions[t.y];
@@ -80,13 +85,14 @@ void bound(const RTCBoundsFunctionArguments* arguments) {
     box.upper_x = up(high.x);
     box.upper_y = up(high.y);
     box.upper_z = up(high.z);
+    all.order.end_body();
 }
 
 }  // namespace
 
 std::vector<std::uint32_t> crossing_triangles(const std::vector<DVec3>& positions,
                                               const std::vector<Triangle>& triangles) {
-    Triangles all{positions, triangles, std::vector<std::atomic<bool>>(triangles.size())};
+    Triangles all{positions, triangles, std::vector<std::atomic<bool>>(triangles.size()), {}};
     const EmbreeDevice device = open_embree();
     const EmbreeHierarchy scene(rtcNewScene(device.get()));
     RTCGeometry geometry = rtcNewGeometry(device.get(), RTC_GEOMETRY_TYPE_USER);

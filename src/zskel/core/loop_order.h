@@ -1,0 +1,38 @@
+#pragma once
+
+#if defined(__SANITIZE_THREAD__)
+extern "C" void __tsan_acquire(void* place);
+extern "C" void __tsan_release(void* place);
+#endif
+
+namespace zskel {
+
+/// ThreadSanitizer cannot see into TBB's and Embree's libraries. It is told what a parallel loop
+/// orders, and no more: the caller before every body, every body before the caller's going on, no
+/// body before another. One lives as long as the loop.
+class LoopOrder {
+  public:
+#if defined(__SANITIZE_THREAD__)
+    LoopOrder() {
+        __tsan_release(&fork_);
+    }
+    void begin_body() {
+        __tsan_acquire(&fork_);
+    }
+    void end_body() {
+        __tsan_release(&join_);
+    }
+    ~LoopOrder() {
+        __tsan_acquire(&join_);
+    }
+
+  private:
+    char fork_ = 0;
+    char join_ = 0;
+#else
+    void begin_body() {}
+    void end_body() {}
+#endif
+};
+
+}  // namespace zskel
