@@ -179,8 +179,8 @@ TEST_CASE("plan_items: outputs that would meet are refused before any work") {
     refused({{"a.obj", "b.json", {}}}, "", {{"a.txt"}, "b.json", ""}, "the journal");
     refused({{"a.obj", "a.txt", {}}}, "", {{"a.txt"}, "b.jsonl", ""}, "a manifest");
     refused({{"a.obj", "b.json", {}}}, "", {{"a.txt"}, "b.jsonl", "b.jsonl"}, "the journal");
-    CHECK_NOTHROW(check_files(plan_items({{"a.obj", "b.json", {}}}, ""),
-                              {{"a.obj"}, "b.jsonl", "b.html"}));
+    CHECK_NOTHROW(
+        check_files(plan_items({{"a.obj", "b.json", {}}}, ""), {{"a.obj"}, "b.jsonl", "b.html"}));
     CHECK_THROWS_AS(plan_items({{"-", "x.json", {}}}, ""), UsageError);
     CHECK_THROWS_AS(plan_items({{std::string("a\0b", 3), "x.json", {}}}, ""), UsageError);
 }
