@@ -300,7 +300,7 @@ TEST_CASE("crossing_triangles: at a common corner, but not at a common edge or i
     const std::vector<DVec3> p = {{0, 0, 0},     {2, 0, 0},  {0, 2, 0}, {0.5, 0.5, -1},
                                   {0.5, 0.5, 1}, {1, -1, 0}, {2, 2, 0}};
     const auto crossing = [&](const std::vector<Triangle>& triangles) {
-        return crossing_triangles(p, triangles).size();
+        return crossing_triangles(p, triangles)->size();
     };
     CHECK(crossing({}) == 0);
     CHECK(crossing({{0, 1, 2}, {0, 3, 4}}) == 2);
@@ -308,6 +308,10 @@ TEST_CASE("crossing_triangles: at a common corner, but not at a common edge or i
     CHECK(crossing({{0, 1, 2}, {0, 5, 6}}) == 0);
     CHECK(crossing({{0, 1, 2}, {5, 3, 4}}) == 2);
     CHECK(crossing({{0, 1, 2}, {5, 3, 4}, {6, 3, 4}}) == 3);
+    const Mesh ball = test::sphere(0.5, 3);
+    CHECK(crossing_triangles(ball.positions, ball.triangles, bearable_pairs(ball.triangles.size()))
+              ->empty());
+    CHECK_FALSE(crossing_triangles(ball.positions, ball.triangles, 100).has_value());
 }
 
 TEST_CASE("read_pose: what is wrong is named, with its place") {

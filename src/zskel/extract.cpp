@@ -212,13 +212,14 @@ void add_part_warnings(const std::vector<Solid>& solids, const ExtractOptions& o
 // where something is amiss, since it takes as long as the rest of the check many times over.
 void add_crossing_warning(const Mesh& mesh, ExtractResult& result) {
     std::vector<Repair> repairs;
-    const std::size_t count =
-        crossing_triangles(mesh.positions, weld_equal(mesh, repairs).triangles).size();
-    if (count == 0) return;
+    const WeldedMesh welded = weld_equal(mesh, repairs);
+    const auto found = crossing_triangles(welded.positions, welded.triangles,
+                                          bearable_pairs(welded.triangles.size()));
+    if (!found || found->empty()) return;
     result.warnings.push_back(
         fmt::format("that may be since {} triangles pass through others; --join makes one surface "
                     "of what overlaps",
-                    count));
+                    found->size()));
 }
 
 // Says what a reader of the skeleton should not take on trust.

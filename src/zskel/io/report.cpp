@@ -96,7 +96,7 @@ std::string to_json(const MeshReport& report) {
                        {"degenerate_triangles", report.degenerate_triangles},
                        {"flat_triangles", report.flat_triangles},
                        {"duplicate_triangles", report.duplicate_triangles},
-                       {"crossing_triangles", report.crossing_triangles},
+                       {"crossing_triangles", json_of(report.crossing_triangles)},
                        {"boundary_edges", report.boundary_edges},
                        {"boundary_loops", report.boundary_loops},
                        {"non_manifold_edges", report.non_manifold_edges},

@@ -104,11 +104,12 @@ class MeshChecker {
     }
 
     void note_crossing() {
-        const std::vector<std::uint32_t> crossing =
-            crossing_triangles(welded_.places, welded_.triangles);
-        report_.crossing_triangles = crossing.size();
-        if (crossing.empty()) return;
-        note("crossing_triangles", crossing.size(), face_name(welded_.source[crossing.front()]),
+        const auto found = crossing_triangles(welded_.places, welded_.triangles,
+                                              bearable_pairs(welded_.triangles.size()));
+        if (!found) return;
+        report_.crossing_triangles = found->size();
+        if (found->empty()) return;
+        note("crossing_triangles", found->size(), face_name(welded_.source[found->front()]),
              "kept: within a solid the inside is where its winding number is not 0; --join makes "
              "one "
              "surface of what overlaps");

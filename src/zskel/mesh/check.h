@@ -47,7 +47,8 @@ struct MeshReport {
     std::size_t degenerate_triangles = 0;  ///< a corner repeats
     std::size_t flat_triangles = 0;        ///< three corners on a line
     std::size_t duplicate_triangles = 0;   ///< same corners as an earlier one, in any order
-    std::size_t crossing_triangles = 0;    ///< that pass through another
+    std::optional<std::size_t>
+        crossing_triangles;  ///< that pass through another; none when too many pairs are near
     std::size_t boundary_edges = 0;
     std::size_t boundary_loops = 0;
     std::size_t non_manifold_edges = 0;     ///< three triangles or more

@@ -9,7 +9,7 @@ namespace zskel {
 namespace {
 
 // For cutting polygons; what takes more is made to take long.
-constexpr std::size_t kLooks = 200'000'000;
+constexpr std::size_t kLooks = 100'000'000;
 constexpr std::size_t kLooksPerCorner = 100;
 
 }  // namespace

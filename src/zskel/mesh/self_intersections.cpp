@@ -2,6 +2,7 @@
 
 #include <atomic>
 #include <cmath>
+#include <exception>
 #include <limits>
 
 #include "zskel/core/embree.h"
@@ -14,7 +15,9 @@ struct Triangles {
     const std::vector<DVec3>& positions;
     const std::vector<Triangle>& triangles;
     std::vector<std::atomic<bool>> crosses;
-    LoopOrder order;  // of Embree's threads, which call what follows
+    std::size_t most_pairs;
+    std::atomic<std::size_t> pairs = 0;
+    LoopOrder order{};  // of Embree's threads, which call what follows
 };
 
 double side_of(const DVec3& a, const DVec3& b, const DVec3& c, const DVec3& p) {
@@ -48,9 +51,13 @@ bool edge_passes(const Triangles& all, const Triangle& one, const Triangle& othe
     return false;
 }
 
+// Passes through Embree, which ends the search.
+struct TooManyPairs : std::exception {};
+
 // Of two triangles whose boxes meet; called by several threads at once.
 void visit_pairs(void* user, RTCCollision* pairs, unsigned count) {
     auto& all = *static_cast<Triangles*>(user);
+    if ((all.pairs += count) > all.most_pairs) throw TooManyPairs();
     all.order.begin_body();
     for (unsigned i = 0; i < count; ++i) {
         const std::uint32_t a = pairs[i].primID0;
@@ -90,9 +97,11 @@ void bound(const RTCBoundsFunctionArguments* arguments) {
 
 }  // namespace
 
-std::vector<std::uint32_t> crossing_triangles(const std::vector<DVec3>& positions,
-                                              const std::vector<Triangle>& triangles) {
-    Triangles all{positions, triangles, std::vector<std::atomic<bool>>(triangles.size()), {}};
+std::optional<std::vector<std::uint32_t>> crossing_triangles(const std::vector<DVec3>& positions,
+                                                             const std::vector<Triangle>& triangles,
+                                                             std::size_t most_pairs) {
+    Triangles all{positions, triangles, std::vector<std::atomic<bool>>(triangles.size()),
+                  most_pairs};
     const EmbreeDevice device = open_embree();
     const EmbreeHierarchy scene(rtcNewScene(device.get()));
     RTCGeometry geometry = rtcNewGeometry(device.get(), RTC_GEOMETRY_TYPE_USER);
@@ -104,6 +113,7 @@ std::vector<std::uint32_t> crossing_triangles(const std::vector<DVec3>& position
     rtcReleaseGeometry(geometry);
     build_hierarchy(scene.get(), device.get());
     rtcCollide(scene.get(), scene.get(), visit_pairs, &all);
+    if (all.pairs > most_pairs) return std::nullopt;
     std::vector<std::uint32_t> crossing;
     for (std::uint32_t t = 0; t < triangles.size(); ++t) {
         if (all.crosses[t]) crossing.push_back(t);

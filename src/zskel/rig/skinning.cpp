@@ -126,8 +126,8 @@ DeformMeasures measure_deformation(const Mesh& mesh, const std::vector<DVec3>& d
     const double before = volume_of(welded.triangles, mesh.positions);
     if (welded.is_closed && before > 0.0)
         out.volume_change = volume_of(welded.triangles, deformed) / before - 1.0;
-    out.crossing_at_rest = crossing_triangles(mesh.positions, welded.triangles).size();
-    out.crossing_faces = crossing_triangles(deformed, welded.triangles).size();
+    out.crossing_at_rest = crossing_triangles(mesh.positions, welded.triangles)->size();
+    out.crossing_faces = crossing_triangles(deformed, welded.triangles)->size();
 
     std::vector<double> stretches;
     for (const Triangle& t : mesh.triangles) {
