@@ -168,6 +168,7 @@ std::size_t split_boundary(WeldedMesh& mesh, const std::vector<Side>& boundary, 
 
 void close_cracks(WeldedMesh& mesh, double tolerance, std::vector<Repair>& repairs) {
     if (!(tolerance > 0.0)) return;
+    tolerance = std::min(tolerance, std::numeric_limits<double>::max());  // of a diagonal too long
     std::vector<Side> boundary = boundary_sides(mesh);
     if (boundary.empty()) return;
     const std::size_t merged = weld_boundary(mesh, boundary, tolerance);
