@@ -57,7 +57,8 @@ struct TooManyPairs : std::exception {};
 // Of two triangles whose boxes meet; called by several threads at once.
 void visit_pairs(void* user, RTCCollision* pairs, unsigned count) {
     auto& all = *static_cast<Triangles*>(user);
-    if ((all.pairs += count) > all.most_pairs) throw TooManyPairs();
+    const std::size_t pairs_so_far = all.pairs += count;
+    if (pairs_so_far > all.most_pairs) throw TooManyPairs();
     all.order.begin_body();
     for (unsigned i = 0; i < count; ++i) {
         const std::uint32_t a = pairs[i].primID0;
