@@ -3,6 +3,10 @@
 #if defined(__SANITIZE_THREAD__)
 extern "C" void __tsan_acquire(void* place);
 extern "C" void __tsan_release(void* place);
+// For what a library calls: what it has captured is read before the order can be told.
+#define ZSKEL_CALLED_BY_LIBRARY __attribute__((no_sanitize_thread))
+#else
+#define ZSKEL_CALLED_BY_LIBRARY
 #endif
 
 namespace zskel {

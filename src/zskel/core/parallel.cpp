@@ -19,11 +19,12 @@ void parallel_for(std::size_t count, std::size_t grain,
     LoopOrder order;
     try {
         tbb::parallel_for(tbb::blocked_range<std::size_t>(0, count, grain),
-                          [&](const tbb::blocked_range<std::size_t>& range) {
-                              order.begin_body();
-                              body(range.begin(), range.end());
-                              order.end_body();
-                          });
+                          [&](const tbb::blocked_range<std::size_t>& range)
+                              ZSKEL_CALLED_BY_LIBRARY {
+                                  order.begin_body();
+                                  body(range.begin(), range.end());
+                                  order.end_body();
+                              });
     } catch (const std::runtime_error& error) {
         // TBB has no type of its own for a thread whose stack there is no memory for.
         if (std::string_view(error.what()).starts_with("pthread_create")) throw std::bad_alloc();
