@@ -111,8 +111,7 @@ class MeshChecker {
         if (found->empty()) return;
         note("crossing_triangles", found->size(), face_name(welded_.source[found->front()]),
              "kept: within a solid the inside is where its winding number is not 0; --join makes "
-             "one "
-             "surface of what overlaps");
+             "one surface of what overlaps");
     }
 
     void drop_degenerate() {

@@ -10,6 +10,7 @@
 #include "zskel/core/disjoint_sets.h"
 #include "zskel/mesh/outlook.h"
 #include "zskel/mesh/sides.h"
+#include "zskel/mesh/signed_volume.h"
 
 namespace zskel {
 namespace {
@@ -139,17 +140,6 @@ std::vector<std::pair<double, std::size_t>> round_edge(const WeldedMesh& mesh,
     return out;
 }
 
-// Whether most of what the triangles bound is behind their fronts.
-bool is_inside_out(const WeldedMesh& mesh) {
-    double volume = 0.0;
-    for (const Triangle& t : mesh.triangles) {
-        const DVec3& origin = mesh.positions.front();
-        volume += glm::dot(mesh.positions[t.x] - origin,
-                           glm::cross(mesh.positions[t.y] - origin, mesh.positions[t.z] - origin));
-    }
-    return volume < 0.0;
-}
-
 // Pairs of sides at a crowded edge; none where their number is odd.
 // @param is_turned  the triangles' fronts are inside.
 std::vector<std::pair<std::size_t, std::size_t>> pairs_at(const WeldedMesh& mesh,
@@ -200,7 +190,7 @@ std::size_t part_pairs(WeldedMesh& mesh) {
         fans.unite(patches.sides[i].high_corner(), patches.sides[k].high_corner());
     };
     std::vector<bool> is_at_crowd(mesh.positions.size(), false);
-    const bool is_turned = is_inside_out(mesh);
+    const bool is_turned = signed_volume(mesh.positions, mesh.triangles) < 0.0;
     std::size_t paired = 0;
     for_each_edge(patches.sides, [&](std::size_t first, std::size_t last) {
         if (last - first == 2) unite(first, first + 1);

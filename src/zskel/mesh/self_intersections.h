@@ -13,9 +13,8 @@ namespace zskel {
 /// The numbers of the triangles that pass through another one, ascending. Pairs that only touch,
 /// lie in one plane, or share an edge do not count; signs are those of double arithmetic.
 /// @param triangles  welded: neighbours have the same corners.
-/// @param most_pairs whose boxes meet; a usual surface has about 20 a triangle, slivers in one
-/// plane
-///                   nearly all there are.
+/// @param most_pairs  whose boxes meet: about 20 a triangle on a usual surface, nearly all that
+///                    there are among slivers in one plane.
 /// @return none when there are more pairs.
 std::optional<std::vector<std::uint32_t>> crossing_triangles(
     const std::vector<DVec3>& positions, const std::vector<Triangle>& triangles,

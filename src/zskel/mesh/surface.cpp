@@ -36,6 +36,31 @@ Similarity unit_cube(std::span<const DVec3> positions) {
     return {low + half, can_scale ? 1.0 / size : 0.0};
 }
 
+// Second moments of the triangles about their common centroid, in the unit cube so that nothing
+// overflows.
+Similarity by_spread(std::span<const DVec3> positions, std::span<const Triangle> triangles,
+                     const Similarity& cube, const Similarity& otherwise) {
+    double area_sum = 0.0;
+    DVec3 first(0.0);
+    double second = 0.0;
+    for (const Triangle& t : triangles) {
+        const DVec3 a = (positions[t.x] - cube.center) * cube.scale;
+        const DVec3 b = (positions[t.y] - cube.center) * cube.scale;
+        const DVec3 c = (positions[t.z] - cube.center) * cube.scale;
+        const double area = 0.5 * glm::length(glm::cross(b - a, c - a));
+        const DVec3 sum = a + b + c;
+        area_sum += area;
+        first += sum * (area / 3.0);
+        second +=
+            area / 12.0 * (glm::dot(a, a) + glm::dot(b, b) + glm::dot(c, c) + glm::dot(sum, sum));
+    }
+    if (!(area_sum > 0.0)) return otherwise;
+    const DVec3 centroid = first / area_sum;
+    const double variance = second / area_sum - glm::dot(centroid, centroid);
+    if (!(variance > 0.0)) return otherwise;
+    return {cube.center + centroid / cube.scale, cube.scale * kWorldSpread / std::sqrt(variance)};
+}
+
 bool has_edge(const std::vector<Side>& sides, bool (*is_meant)(std::size_t)) {
     bool has = false;
     for_each_edge(
@@ -105,31 +130,10 @@ void refuse_repairs(const Mesh& mesh, const std::vector<Repair>& repairs) {
 
 }  // namespace
 
-// Second moments of the triangles about their common centroid, in the unit cube so that nothing
-// overflows.
 Similarity scale_by_spread(std::span<const DVec3> positions, std::span<const Triangle> triangles,
                            const Similarity& otherwise) {
     const Similarity cube = unit_cube(positions);
-    if (cube.scale == 0.0) return otherwise;
-    double area_sum = 0.0;
-    DVec3 first(0.0);
-    double second = 0.0;
-    for (const Triangle& t : triangles) {
-        const DVec3 a = (positions[t.x] - cube.center) * cube.scale;
-        const DVec3 b = (positions[t.y] - cube.center) * cube.scale;
-        const DVec3 c = (positions[t.z] - cube.center) * cube.scale;
-        const double area = 0.5 * glm::length(glm::cross(b - a, c - a));
-        const DVec3 sum = a + b + c;
-        area_sum += area;
-        first += sum * (area / 3.0);
-        second +=
-            area / 12.0 * (glm::dot(a, a) + glm::dot(b, b) + glm::dot(c, c) + glm::dot(sum, sum));
-    }
-    if (!(area_sum > 0.0)) return otherwise;
-    const DVec3 centroid = first / area_sum;
-    const double variance = second / area_sum - glm::dot(centroid, centroid);
-    if (!(variance > 0.0)) return otherwise;
-    return {cube.center + centroid / cube.scale, cube.scale * kWorldSpread / std::sqrt(variance)};
+    return cube.scale == 0.0 ? otherwise : by_spread(positions, triangles, cube, otherwise);
 }
 
 PreparedSurface prepare_surface(const Mesh& mesh, WorldSize size, const RepairOptions& options) {
@@ -156,7 +160,7 @@ PreparedSurface prepare_surface(const Mesh& mesh, WorldSize size, const RepairOp
     }
     out.surface.world_from_model = size == WorldSize::UnitCube
                                        ? cube
-                                       : scale_by_spread(welded.positions, welded.triangles, cube);
+                                       : by_spread(welded.positions, welded.triangles, cube, cube);
     out.surface.positions.reserve(welded.positions.size());
     for (const DVec3& p : welded.positions) {
         out.surface.positions.push_back(out.surface.world_from_model.to_world(p));

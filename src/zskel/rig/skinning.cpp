@@ -6,6 +6,7 @@
 #include "zskel/core/parallel.h"
 #include "zskel/mesh/bounds.h"
 #include "zskel/mesh/self_intersections.h"
+#include "zskel/mesh/signed_volume.h"
 #include "zskel/mesh/surface.h"
 
 namespace zskel {
@@ -80,17 +81,6 @@ Welded weld(const Mesh& mesh) {
     return out;
 }
 
-double volume_of(const std::vector<Triangle>& triangles, const std::vector<DVec3>& positions) {
-    const DVec3& from = positions.front();
-    double volume = 0.0;
-    for (const Triangle& t : triangles) {
-        volume += glm::dot(positions[t.x] - from,
-                           glm::cross(positions[t.y] - from, positions[t.z] - from)) /
-                  6.0;
-    }
-    return volume;
-}
-
 }  // namespace
 
 std::vector<DVec3> deform(const Mesh& mesh, const Armature& armature,
@@ -123,9 +113,9 @@ DeformMeasures measure_deformation(const Mesh& mesh, const std::vector<DVec3>& d
                                    const std::vector<BoneMotion>& motions) {
     DeformMeasures out;
     const Welded welded = weld(mesh);
-    const double before = volume_of(welded.triangles, mesh.positions);
+    const double before = signed_volume(mesh.positions, welded.triangles);
     if (welded.is_closed && before > 0.0)
-        out.volume_change = volume_of(welded.triangles, deformed) / before - 1.0;
+        out.volume_change = signed_volume(deformed, welded.triangles) / before - 1.0;
     out.crossing_at_rest = crossing_triangles(mesh.positions, welded.triangles)->size();
     out.crossing_faces = crossing_triangles(deformed, welded.triangles)->size();
 
