@@ -161,7 +161,8 @@ TEST_CASE(
     "spread_seeds: every vertex has a seed that its parents lead to, and none is far from one") {
     const PreparedSurface prepared = prepare_surface(test::torus());
     const std::vector<float> even(prepared.surface.positions.size(), 1.0f);
-    const SeedSpread spread = spread_seeds(prepared.surface, even, {100, 100, 0.0});
+    const SeedSpread spread =
+        spread_seeds(prepared.surface, even, {.min_seeds = 100, .max_seeds = 100});
     CHECK(spread.vertices.size() == 100);
     CHECK(spread.end == SpreadEnd::Limit);
     for (std::uint32_t v = 0; v < spread.seed_of.size(); ++v) {
@@ -172,12 +173,22 @@ TEST_CASE(
     // The area is 4 pi^2 R r = 1.66 of the model's units (0.94 to a world unit): 100 cells of 0.14
     // across.
     CHECK(spread.spacing_thickness < 0.25);
-    const SeedSpread all = spread_seeds(prepared.surface, even, {even.size(), even.size(), 0.0});
+    const SeedSpread all =
+        spread_seeds(prepared.surface, even, {.min_seeds = even.size(), .max_seeds = even.size()});
     CHECK(all.vertices.size() == even.size());
     CHECK(all.end == SpreadEnd::EveryVertex);
     // As many as the spacing asks for, and no more.
-    const SeedSpread near = spread_seeds(prepared.surface, even, {10, 1000, 0.25});
+    const SeedSpread near =
+        spread_seeds(prepared.surface, even, {.min_seeds = 10, .fine_thickness = 0.25});
     CHECK(near.end == SpreadEnd::Spacing);
     CHECK(near.spacing_thickness <= 0.25);
     CHECK(near.vertices.size() < 200);
+    // Many will do where they are not so near.
+    const SeedSpread many = spread_seeds(
+        prepared.surface, even,
+        {.min_seeds = 10, .fine_thickness = 0.0, .many_seeds = 15, .coarse_thickness = 0.5});
+    CHECK(many.end == SpreadEnd::Spacing);
+    CHECK(many.vertices.size() >= 15);
+    CHECK(many.vertices.size() < near.vertices.size());
+    CHECK(many.spacing_thickness <= 0.5);
 }

@@ -361,11 +361,11 @@ TEST_CASE("deform: each limb of our creatures bent by 45 degrees, and no other g
     creature("cobra", 1);
     creature("octopus", 9);
     creature("hand", 6);
-    creature("plant", 16);
+    creature("plant", 15);
     creature("y", 3);
     if (name.empty()) return;
     const Mesh mesh = read_mesh(std::string(ZSKEL_MODELS "/") + name + ".obj");
-    const ExtractResult result = test::extract(mesh);
+    const ExtractResult result = test::extract(mesh, {}, 10);
     const Armature armature = build_armature(result.graph, mesh.triangles, {});
     const auto weights = skin_weights(mesh, result.graph, armature, {});
     const std::vector<Branch> branches = find_branches(result.graph);

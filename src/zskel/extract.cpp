@@ -138,6 +138,7 @@ class Assembler {
         sums.rejected_limbs += part.rejected_limbs;
         sums.refine.merged_junctions += part.refine.merged_junctions;
         sums.refine.extended_ends += part.refine.extended_ends;
+        sums.refine.zipped_branches += part.refine.zipped_branches;
         result_.warnings.insert(result_.warnings.end(), part.warnings.begin(), part.warnings.end());
     }
 
@@ -276,8 +277,10 @@ BackendOptions backend_options_for(const Mesh& mesh, const ExtractOptions& optio
                                    BackendOptions backend) {
     const bool is_paper = options.method == Method::Paper;
     const std::size_t vertices = mesh.positions.size();
-    const std::size_t seeds =
-        is_paper ? vertices : std::min(vertices, options.newton.spread.min_seeds);
+    const SpreadOptions& spread = options.newton.spread;
+    const std::size_t usual = std::min(
+        spread.max_seeds, std::max(spread.min_seeds, spread.min_seeds / 2 + spread.many_seeds / 2));
+    const std::size_t seeds = is_paper ? vertices : std::min(vertices, usual);
     if (backend.face_px == 0) backend.face_px = is_paper ? kDefaultFacePx : kNewtonFacePx;
     backend.work.faces = mesh.triangles.size();
     backend.work.evaluations = seeds * (is_paper ? kPaperEvaluations : kNewtonEvaluations);

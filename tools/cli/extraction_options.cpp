@@ -31,8 +31,9 @@ void add_method_options(CLI::App& command, ExtractionOptions& options) {
                 [&newton](const std::string& text) {
                     newton.spread.min_seeds = newton.spread.max_seeds = parse_seeds(text);
                 },
-                "How many seeds are spread over the surface, or all: one a vertex [from 1000, as "
-                "many as the thinnest limb needs]")
+                "How many seeds are spread over the surface, or all: one a vertex [from 300, as "
+                "many "
+                "as the thickness around them asks for]")
             ->type_name("N|all")
             ->group(kNewtonGroup),
         command

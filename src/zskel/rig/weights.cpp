@@ -6,7 +6,10 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <map>
 #include <mutex>
+#include <optional>
+#include <utility>
 
 #include "zskel/core/error.h"
 #include "zskel/core/parallel.h"
@@ -90,6 +93,74 @@ bool hangs_on(const Armature& armature, std::uint32_t bone, std::uint32_t on) {
     return bone == on;
 }
 
+// What hangs on the same bone side by side pulls at a vertex by turns: the strongest of such
+// subtrees keeps what it is stronger by than the next, the others nothing; the bone has the rest.
+class Rivals {
+  public:
+    Rivals(const Armature& armature, std::vector<Influence>& influences)
+        : armature_(armature), influences_(influences) {}
+
+    void part() {
+        for (Tree tree = sums(); std::optional<std::uint32_t> bone = contested(tree); tree = sums())
+            part_children_of(*bone, tree);
+    }
+
+  private:
+    using Tree = std::map<std::uint32_t, float>;  // parents before children, as bones are numbered
+
+    // What each bone and all that hangs on it pull.
+    Tree sums() const {
+        Tree tree;
+        for (const Influence& i : influences_) {
+            for (std::uint32_t b = i.bone; b != kNone; b = armature_.bones[b].parent)
+                tree[b] += i.weight;
+        }
+        return tree;
+    }
+
+    std::optional<std::uint32_t> contested(const Tree& tree) const {
+        std::map<std::uint32_t, int> children;
+        for (const auto& [bone, sum] : tree) {
+            const std::uint32_t parent = armature_.bones[bone].parent;
+            if (parent != kNone && sum > 0.0f && ++children[parent] > 1) return parent;
+        }
+        return std::nullopt;
+    }
+
+    void part_children_of(std::uint32_t parent, const Tree& tree) {
+        std::uint32_t strongest = kNone;
+        float most = 0.0f;
+        float next = 0.0f;
+        for (const auto& [bone, sum] : tree) {
+            if (armature_.bones[bone].parent != parent) continue;
+            if (sum > most) {
+                next = std::exchange(most, sum);
+                strongest = bone;
+            } else {
+                next = std::max(next, sum);
+            }
+        }
+        const float share = (most - next) / most;
+        float freed = 0.0f;
+        for (Influence& i : influences_) {
+            if (i.bone == parent || !hangs_on(armature_, i.bone, parent)) continue;
+            const float kept = hangs_on(armature_, i.bone, strongest) ? share * i.weight : 0.0f;
+            freed += i.weight - kept;
+            i.weight = kept;
+        }
+        const auto own = std::find_if(influences_.begin(), influences_.end(),
+                                      [&](const Influence& i) { return i.bone == parent; });
+        if (own != influences_.end())
+            own->weight += freed;
+        else
+            influences_.push_back({parent, freed});
+        std::erase_if(influences_, [](const Influence& i) { return !(i.weight > 0.0f); });
+    }
+
+    const Armature& armature_;
+    std::vector<Influence>& influences_;
+};
+
 void keep_strongest(std::vector<Influence>& influences, const WeightOptions& options) {
     std::sort(influences.begin(), influences.end(), [](const Influence& a, const Influence& b) {
         return a.weight != b.weight ? a.weight > b.weight : a.bone < b.bone;
@@ -156,6 +227,7 @@ std::vector<std::vector<Influence>> skin_weights(const Mesh& mesh, const Skeleto
     });
     for (std::size_t v = 0; v < places.size(); ++v) {
         if (places[v].empty()) places[v] = {{first[v], 1.0f}};
+        Rivals(armature, places[v]).part();
         keep_strongest(places[v], options);
     }
 

@@ -44,6 +44,20 @@ void CurveGraph::unlink(std::uint32_t a, std::uint32_t b) {
     remove_one(nodes[b].links, a);
 }
 
+float CurveGraph::length_along(std::span<const std::uint32_t> branch) const {
+    float sum = 0.0f;
+    for (std::size_t i = 1; i < branch.size(); ++i)
+        sum += glm::distance(at(branch[i - 1]), at(branch[i]));
+    return sum;
+}
+
+void CurveGraph::give_up(std::uint32_t node, std::uint32_t to) {
+    std::vector<std::uint32_t>& all = nodes[to].seeds;
+    all.insert(all.end(), nodes[node].seeds.begin(), nodes[node].seeds.end());
+    nodes[node].seeds.clear();
+    nodes[node].is_removed = true;
+}
+
 std::vector<std::uint32_t> CurveGraph::branch_from(std::uint32_t first,
                                                    std::uint32_t second) const {
     return walk_branch(links_in(*this), first, second);

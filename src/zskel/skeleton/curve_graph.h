@@ -25,6 +25,9 @@ struct CurveGraph {
     std::uint32_t add(const Vec3& position, float radius = 0.0f);
     void link(std::uint32_t a, std::uint32_t b);
     void unlink(std::uint32_t a, std::uint32_t b);
+    float length_along(std::span<const std::uint32_t> branch) const;
+    /// Removes a node, whose seeds another one gets. Links are the caller's to undo.
+    void give_up(std::uint32_t node, std::uint32_t to);
 
     /// See `walk_branch` and `trace_branches`.
     std::vector<std::uint32_t> branch_from(std::uint32_t first, std::uint32_t second) const;

@@ -37,7 +37,7 @@ class JunctionMerger {
         std::uint32_t drop = branch.back();
         if (graph_.nodes[keep].radius < graph_.nodes[drop].radius) std::swap(keep, drop);
         const double bound = merge_radii_ * static_cast<double>(graph_.nodes[keep].radius);
-        if (static_cast<double>(length_along(branch)) >= bound) return false;
+        if (static_cast<double>(graph_.length_along(branch)) >= bound) return false;
         const std::uint32_t last = drop == branch.back() ? branch[branch.size() - 2] : branch[1];
         std::vector<std::uint32_t> moved = graph_.nodes[drop].links;
         moved.erase(std::find(moved.begin(), moved.end(), last));
@@ -49,29 +49,13 @@ class JunctionMerger {
         }
         for (std::size_t i = 1; i < branch.size(); ++i) graph_.unlink(branch[i - 1], branch[i]);
         for (const std::uint32_t n : branch) {
-            if (n == keep) continue;
-            give_seeds(n, keep);
-            graph_.nodes[n].is_removed = true;
+            if (n != keep) graph_.give_up(n, keep);
         }
         for (const std::uint32_t n : moved) {
             graph_.unlink(n, drop);
             graph_.link(n, keep);
         }
         return true;
-    }
-
-    float length_along(const std::vector<std::uint32_t>& branch) const {
-        float sum = 0.0f;
-        for (std::size_t i = 1; i < branch.size(); ++i)
-            sum += glm::distance(graph_.at(branch[i - 1]), graph_.at(branch[i]));
-        return sum;
-    }
-
-    void give_seeds(std::uint32_t from, std::uint32_t to) {
-        std::vector<std::uint32_t>& given = graph_.nodes[from].seeds;
-        std::vector<std::uint32_t>& all = graph_.nodes[to].seeds;
-        all.insert(all.end(), given.begin(), given.end());
-        given.clear();
     }
 
     CurveGraph& graph_;

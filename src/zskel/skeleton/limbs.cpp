@@ -22,7 +22,9 @@ constexpr float kTrunkShare = 0.8f;
 constexpr float kNearTipGirths = 1.5f;  // a cluster so near to a seed's place needs no way on to it
 constexpr float kLastBallShare = 0.9f;  // a ball touches a place when it reaches so far towards it
 constexpr int kTipPieces = 8;           // that each straight of a tip is looked at in
-constexpr float kUnfreeCost = 1e3f;     // of connections that could not be laid inside
+constexpr int kLimbPieces = 64;  // that a limb is looked at in, for where it leaves the body,
+constexpr std::size_t kOutsidePlaces = 8;  // and places outside, for how thick it is
+constexpr float kUnfreeCost = 1e3f;        // of connections that could not be laid inside
 
 struct Arc {
     std::uint32_t to;
@@ -287,67 +289,106 @@ class LimbGrower {
         return tip.size() > 1 ? tip : std::vector<Vec3>{};
     }
 
-    struct Piece {
-        Vec3 from;
-        Vec3 to;  // the outer end
-        float length;
-        float girth;
+    // What of a limb lies outside the balls along what is kept.
+    struct Outside {
+        std::vector<Vec3> places;   // evenly along it
+        std::vector<Vec3> inwards;  // along it at each place, unit
+        float length = 0.0f;
+        float body_girth = 0.0f;  // of the ball that it leaves last
     };
 
-    // What of a limb lies outside the ball that it grows from.
-    std::vector<Piece> pieces_outside(const Limb& limb) const {
-        std::vector<Piece> pieces;
+    // From its outer end to the centre of the kept cluster.
+    std::vector<Vec3> line_of(const Limb& limb) const {
+        std::vector<Vec3> line(limb.tip.rbegin(), limb.tip.rend());
+        line.push_back(centers_[limb.way.front()]);
         for (std::size_t i = 0; i + 1 < limb.way.size(); ++i) {
-            const std::uint32_t c = limb.way[i];
-            pieces.push_back({centers_[limb.way[i + 1]], centers_[c],
-                              connections_[ways_[c].connection].length, girths_[c]});
+            const Connection& c = connections_[ways_[limb.way[i]].connection];
+            if (c.a == limb.way[i])
+                line.insert(line.end(), c.path.begin(), c.path.end());
+            else
+                line.insert(line.end(), c.path.rbegin(), c.path.rend());
         }
-        for (std::size_t i = 1; i < limb.tip.size(); ++i)
-            pieces.push_back({limb.tip[i - 1], limb.tip[i],
-                              glm::distance(limb.tip[i - 1], limb.tip[i]), limb.tip_girths[i]});
-        const std::uint32_t root = limb.way.back();
-        std::erase_if(pieces, [&](const Piece& piece) {
-            return glm::distance(piece.to, centers_[root]) <= girths_[root];
-        });
-        return pieces;
+        return line;
     }
 
-    // The limb's own girth is that of what lies outside the ball that it grows from.
-    bool is_limb(const Limb& limb, double out) const {
-        const std::vector<Piece> pieces = pieces_outside(limb);
-        double outside = 0.0;
-        double girth_outside = 0.0;
-        for (const Piece& piece : pieces) {
-            outside += static_cast<double>(piece.length);
-            girth_outside += static_cast<double>(piece.length * piece.girth);
+    // The largest ball of a kept cluster about a place that its centre sees; 0 where there is none.
+    float kept_girth_about(const Vec3& place) const {
+        float largest = 0.0f;
+        for (std::uint32_t c = 0; c < girths_.size(); ++c) {
+            if (ways_[c].is_kept && girths_[c] > largest &&
+                glm::distance(place, centers_[c]) <= girths_[c] &&
+                is_free(std::array{place, centers_[c]}, context_.query))
+                largest = girths_[c];
         }
-        if (!(outside > 0.0) || is_strip_of_sheet(pieces, outside)) return false;
-        const auto junction = static_cast<double>(girths_[limb.way.back()]);
-        const double own = out * outside / girth_outside / options_.detail;
-        const double of_junction = out / junction / options_.detail;
+        return largest;
+    }
+
+    Outside outside_of(const Limb& limb) const {
+        const std::vector<Vec3> line = line_of(limb);
+        const float step = length_of(line) / static_cast<float>(kLimbPieces);
+        Outside all;
+        all.body_girth = girths_[limb.way.back()];
+        float before = 0.0f;  // the length up to the segment's start
+        std::size_t segment = 1;
+        for (int k = 0; k < kLimbPieces; ++k) {
+            const float at = step * (static_cast<float>(k) + 0.5f);
+            float length = glm::distance(line[segment - 1], line[segment]);
+            while (segment + 1 < line.size() && before + length < at) {
+                before += length;
+                ++segment;
+                length = glm::distance(line[segment - 1], line[segment]);
+            }
+            if (!(length > 0.0f)) continue;
+            const Vec3 inwards = (line[segment] - line[segment - 1]) / length;
+            const Vec3 place = line[segment - 1] + inwards * std::min(at - before, length);
+            const float girth = kept_girth_about(place);
+            if (girth > 0.0f) {
+                all.body_girth = girth;
+                break;
+            }
+            all.places.push_back(place);
+            all.inwards.push_back(inwards);
+        }
+        Outside few{{}, {}, step * static_cast<float>(all.places.size()), all.body_girth};
+        const std::size_t count = std::min(kOutsidePlaces, all.places.size());
+        for (std::size_t k = 0; k < count; ++k) {
+            const std::size_t i = (2 * k + 1) * all.places.size() / (2 * count);
+            few.places.push_back(all.places[i]);
+            few.inwards.push_back(all.inwards[i]);
+        }
+        return few;
+    }
+
+    // The limb's own girth is the mean of what lies outside; the body's is that of the ball that it
+    // leaves last, which need not be that of the cluster where it joins.
+    bool is_limb(const Limb& limb, double out) const {
+        const Outside outside = outside_of(limb);
+        if (outside.places.empty()) return false;
+        std::vector<float> girths = girths_at(context_.query, outside.places);
+        const double mean =
+            std::accumulate(girths.begin(), girths.end(), 0.0) / static_cast<double>(girths.size());
+        if (!(mean > 0.0) || is_strip_of_sheet(outside, girths)) return false;
+        const double own = out / mean / options_.detail;
+        const double of_body = out / static_cast<double>(outside.body_girth) / options_.detail;
         const bool is_bare = !limb.tip.empty();
-        return own >= options_.least_own_girths && of_junction >= options_.least_junction_girths &&
-               own * of_junction >= options_.least_product &&
+        return own >= options_.least_own_girths && of_body >= options_.least_body_girths &&
+               own * of_body >= options_.least_product &&
                (!is_bare || own >= options_.bare_own_girths ||
-                own * of_junction >= options_.bare_product ||
+                own * of_body >= options_.bare_product ||
                 out >= options_.detail * options_.bare_world);
     }
 
     // Whether it runs through a sheet that is about as wide as the limb is long: any way across
     // would do as well.
-    bool is_strip_of_sheet(const std::vector<Piece>& pieces, double length) const {
+    bool is_strip_of_sheet(const Outside& outside, std::vector<float>& girths) const {
         std::vector<float> widths;
-        std::vector<float> girths;
-        for (const Piece& piece : pieces) {
-            const Vec3 way = piece.to - piece.from;
-            if (!(glm::length(way) > 0.0f)) continue;
-            widths.push_back(section_half_width(context_.query, piece.to, glm::normalize(way)));
-            girths.push_back(piece.girth);
+        for (std::size_t i = 0; i < outside.places.size(); ++i) {
+            widths.push_back(
+                section_half_width(context_.query, outside.places[i], outside.inwards[i]));
         }
-        if (widths.empty()) return false;
         const double width = median(widths);
         return width > options_.flat_girths * median(girths) &&
-               length < options_.detail * options_.flat_widths * width;
+               static_cast<double>(outside.length) < options_.detail * options_.flat_widths * width;
     }
 
     // One limb changes what is far from the skeleton; what was looked at once is left alone.

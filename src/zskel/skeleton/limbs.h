@@ -11,11 +11,11 @@ namespace zskel {
 /// measured in girths (see `girths_at`): of its own, outside the ball where it begins, and of the
 /// body at that place.
 struct LimbOptions {
-    double detail = 1.0;                 ///< scales all bounds: below 1 more limbs, above 1 fewer
-    double least_world = 0.02;           ///< sticks out at least this far, in the solid's size,
-    double least_own_girths = 1.0;       ///< this many of its own girths,
-    double least_junction_girths = 0.2;  ///< and of the body's,
-    double least_product = 0.53;         ///< and so much by the product of the two
+    double detail = 1.0;             ///< scales all bounds: below 1 more limbs, above 1 fewer
+    double least_world = 0.02;       ///< sticks out at least this far, in the solid's size,
+    double least_own_girths = 1.0;   ///< this many of its own girths,
+    double least_body_girths = 0.2;  ///< and of the body's,
+    double least_product = 0.6;      ///< and so much by the product of the two
     double bare_own_girths =
         2.5;                    ///< where no seed came to rest beyond the ball: so many of its own,
     double bare_product = 2.5;  ///< so much by the product,

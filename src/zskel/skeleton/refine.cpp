@@ -4,6 +4,7 @@
 #include "zskel/skeleton/ends.h"
 #include "zskel/skeleton/junctions.h"
 #include "zskel/skeleton/resample.h"
+#include "zskel/skeleton/zip.h"
 
 namespace zskel {
 
@@ -15,6 +16,17 @@ RefineOptions active_contour() {
     return options;
 }
 
+namespace {
+
+// All but the new junctions is centred already.
+RefineOptions after_zipping(RefineOptions options) {
+    options.smoothing_sweeps = 0;
+    options.sweeps /= 5;
+    return options;
+}
+
+}  // namespace
+
 RefineReport refine_graph(CurveGraph& graph, std::span<const Vec3> seed_points,
                           const SurfaceQuery& query, const RefineOptions& options) {
     RefineReport report;
@@ -22,6 +34,8 @@ RefineReport refine_graph(CurveGraph& graph, std::span<const Vec3> seed_points,
     report.extended_ends = extend_ends(graph, seed_points, query, options);
     resample_branches(graph, seed_points, query, options, Spacing::ByRadius);
     centre_branches(graph, query, options);
+    report.zipped_branches = zip_branches(graph, query, options);
+    if (report.zipped_branches > 0) centre_branches(graph, query, after_zipping(options));
     aim_ends(graph, query, options);
     resample_branches(graph, seed_points, query, options,
                       options.even_spacing_world > 0.0 ? Spacing::Even : Spacing::ByRadius);

@@ -23,6 +23,8 @@ struct RefineOptions {
                                       ///< little where branches part
     double smoothing = 0.7;           ///< share of the way to the middle of the neighbours,
     double unshrink = 0.55;           ///< and then away from it, so that bends are not cut
+    double zip_radii = 0.3;           ///< branches nearer to each other than this go side by side;
+    double zip_least_radii = 0.6;     ///< they become one where they do so as far as this
     double aim_radii = 1.75;          ///< the last stretch of so many radii goes straight on
     double aim_least =
         0.7;  ///< unless that is shorter than this share of it, or longer by a radius
@@ -35,10 +37,11 @@ RefineOptions active_contour();
 struct RefineReport {
     std::size_t merged_junctions = 0;
     std::size_t extended_ends = 0;
+    std::size_t zipped_branches = 0;  ///< see `zip_branches`
 };
 
-/// Merges junctions, extends ends to the tips, centres and smooths the branches, and sends ends
-/// straight on.
+/// Merges junctions, extends ends to the tips, centres and smooths the branches, makes one of those
+/// that go side by side, and sends ends straight on.
 /// No segment that was free is left unfree, and cycles stay.
 /// @param seed_points  where every seed's vertex is on the surface.
 RefineReport refine_graph(CurveGraph& graph, std::span<const Vec3> seed_points,

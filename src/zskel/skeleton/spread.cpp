@@ -169,16 +169,18 @@ SeedSpread spread_seeds(const Surface& surface, std::span<const float> thickness
                         const SpreadOptions& options) {
     Spreader spreader(surface, thickness);
     const std::size_t vertices = surface.positions.size();
-    const std::size_t least = std::min(options.min_seeds, options.max_seeds);
     std::uint32_t next = 0;
     std::size_t count = 0;
+    const auto is_enough = [&](double left) {
+        if (count >= options.max_seeds) return true;
+        return count >= options.min_seeds &&
+               left <=
+                   (count < options.many_seeds ? options.fine_thickness : options.coarse_thickness);
+    };
     // Parts that no front has reached come first, whatever the limit: their distance is infinite.
     for (; count < vertices; ++count) {
         const float left = spreader.distance(next);
-        if (left == 0.0f) break;
-        const bool is_near = static_cast<double>(left) <= options.spacing_thickness;
-        const bool enough = count >= options.max_seeds || (count >= least && is_near);
-        if (enough && left < kInfinity) break;
+        if (left == 0.0f || (left < kInfinity && is_enough(static_cast<double>(left)))) break;
         spreader.add(next);
         next = spreader.farthest();
     }
@@ -186,7 +188,7 @@ SeedSpread spread_seeds(const Surface& surface, std::span<const float> thickness
     spread.spacing_thickness = static_cast<double>(spreader.distance(next));
     if (spread.spacing_thickness == 0.0)
         spread.end = SpreadEnd::EveryVertex;
-    else if (spread.spacing_thickness > options.spacing_thickness || options.max_seeds == least)
+    else if (count >= options.max_seeds)
         spread.end = SpreadEnd::Limit;
     return spread;
 }

@@ -28,11 +28,14 @@ struct SeedSpread {
     SpreadEnd end = SpreadEnd::Spacing;
 };
 
+/// When seeds are near enough together, in local thicknesses: finely spread over a body with some
+/// limbs, coarsely over what is thin all over, as a tree of vessels.
 struct SpreadOptions {
-    std::size_t min_seeds = 1000;    ///< so many, or every vertex,
-    std::size_t max_seeds = 20000;   ///< and up to so many
-    double spacing_thickness = 1.0;  ///< until no vertex is farther from a seed than this many of
-                                     ///< the local thicknesses
+    std::size_t min_seeds = 300;    ///< so many, or every vertex;
+    double fine_thickness = 0.22;   ///< then until no vertex is farther from a seed than this,
+    std::size_t many_seeds = 1000;  ///< or, once there are so many,
+    double coarse_thickness = 1.0;  ///< than this;
+    std::size_t max_seeds = 20000;  ///< and up to so many
 };
 
 /// Farthest-point sampling along the surface's edges, distances divided by the thickness there, so

@@ -1,0 +1,111 @@
+#include "zskel/skeleton/zip.h"
+
+#include <algorithm>
+
+namespace zskel {
+namespace {
+
+using Strand = std::vector<std::uint32_t>;
+
+class Zipper {
+  public:
+    Zipper(CurveGraph& graph, const SurfaceQuery& query, const RefineOptions& options)
+        : graph_(graph), query_(query), options_(options) {}
+
+    // Every zip removes a node, so this ends.
+    std::size_t run() {
+        std::size_t zipped = 0;
+        for (std::uint32_t n = 0; n < graph_.nodes.size();) {
+            const std::size_t before = zipped;
+            if (graph_.nodes[n].links.size() > 2 && zip_at(n)) ++zipped;
+            // Where two parted farther on, a third may have come along.
+            n = zipped > before ? 0 : n + 1;
+        }
+        return zipped;
+    }
+
+  private:
+    bool zip_at(std::uint32_t junction) {
+        std::vector<Strand> strands;
+        for (const std::uint32_t next : graph_.nodes[junction].links)
+            strands.push_back(graph_.branch_from(junction, next));
+        std::stable_sort(strands.begin(), strands.end(), [&](const Strand& a, const Strand& b) {
+            return graph_.length_along(a) > graph_.length_along(b);
+        });
+        for (std::size_t a = 0; a < strands.size(); ++a) {
+            for (std::size_t b = a + 1; b < strands.size(); ++b) {
+                const bool is_ring = strands[a].back() == junction;
+                if (!is_ring && zip(strands[a], strands[b])) return true;
+            }
+        }
+        return false;
+    }
+
+    // Joins the one that goes to where it leaves the one that stays.
+    bool zip(const Strand& stays, const Strand& goes) {
+        const auto [last, beside] = side_by_side(stays, goes);
+        if (last == 0 || beside == 0) return false;
+        const Vec3& start = graph_.at(stays.front());
+        const std::uint32_t joint = stays[beside];
+        const std::uint32_t next = goes[last + 1];
+        const float least =
+            static_cast<float>(options_.zip_least_radii) * query_.nearest(start).distance;
+        if (glm::distance(start, graph_.at(joint)) < least) return false;
+        // An end that lies beside another branch most of the way stays as it is.
+        const bool has_end = graph_.nodes[goes.back()].links.size() == 1;
+        const Strand left(goes.begin() + static_cast<std::ptrdiff_t>(last), goes.end());
+        if (has_end && 2.0f * graph_.length_along(left) < graph_.length_along(goes)) return false;
+        const auto& kept = graph_.nodes[joint].links;
+        const bool is_double =
+            next == joint || std::find(kept.begin(), kept.end(), next) != kept.end();
+        if (is_double || !query_.sees(graph_.at(joint), graph_.at(next))) return false;
+        for (std::size_t k = 0; k <= last; ++k) graph_.unlink(goes[k], goes[k + 1]);
+        for (std::size_t k = 1; k <= last; ++k) graph_.give_up(goes[k], joint);
+        graph_.link(joint, next);
+        return true;
+    }
+
+    struct Places {
+        std::size_t last = 0;    // of `goes`, still beside
+        std::size_t beside = 0;  // of `stays`, nearest to it
+    };
+
+    // How far two strands go side by side; neither to its last node.
+    Places side_by_side(const Strand& stays, const Strand& goes) const {
+        Places out;
+        std::size_t i = 0;
+        for (std::size_t k = 1; k + 1 < goes.size(); ++k) {
+            const Vec3& p = graph_.at(goes[k]);
+            while (i + 2 < stays.size() && glm::distance(p, graph_.at(stays[i + 1])) <=
+                                               glm::distance(p, graph_.at(stays[i])))
+                ++i;
+            float aside = distance_to_edge(p, stays, i);
+            if (i > 0) aside = std::min(aside, distance_to_edge(p, stays, i - 1));
+            if (aside > static_cast<float>(options_.zip_radii) * query_.nearest(p).distance) break;
+            out = {k, i};
+        }
+        return out;
+    }
+
+    float distance_to_edge(const Vec3& p, const Strand& strand, std::size_t i) const {
+        const Vec3& a = graph_.at(strand[i]);
+        const Vec3 along = graph_.at(strand[i + 1]) - a;
+        const float square = glm::dot(along, along);
+        const float share =
+            square > 0.0f ? std::clamp(glm::dot(p - a, along) / square, 0.0f, 1.0f) : 0.0f;
+        return glm::distance(p, a + along * share);
+    }
+
+    CurveGraph& graph_;
+    const SurfaceQuery& query_;
+    const RefineOptions& options_;
+};
+
+}  // namespace
+
+std::size_t zip_branches(CurveGraph& graph, const SurfaceQuery& query,
+                         const RefineOptions& options) {
+    return Zipper(graph, query, options).run();
+}
+
+}  // namespace zskel
