@@ -139,7 +139,11 @@ class Centring {
         return balls_[n].radius - glm::distance(balls_[n].centre, point);
     }
     float look_round(std::uint32_t n) {
-        balls_[n] = {graph_.at(n), query_.nearest(graph_.at(n)).distance};
+        const Vec3& here = graph_.at(n);
+        const Ball& last = balls_[n];
+        const float within =
+            last.radius > 0.0f ? last.radius + glm::distance(last.centre, here) : kInfinity;
+        balls_[n] = {here, query_.nearest(here, within).distance};
         return balls_[n].radius;
     }
 

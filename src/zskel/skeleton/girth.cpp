@@ -33,7 +33,8 @@ std::vector<float> girths_at(const SurfaceQuery& query, std::span<const Vec3> po
         std::vector<float> ways(directions.size());
         for (std::size_t i = begin; i < end; ++i) {
             query.free_ways(points[i], directions, ways);
-            const float longest = kMostRadii * query.nearest(points[i]).distance;
+            const float shortest = *std::min_element(ways.begin(), ways.end());
+            const float longest = kMostRadii * query.nearest(points[i], shortest).distance;
             out[i] = std::min(middle_of(ways), longest);
         }
     });

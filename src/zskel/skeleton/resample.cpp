@@ -50,8 +50,8 @@ class Resampler {
     void lay_nodes(std::uint32_t first, std::uint32_t last, const std::vector<Vec3>& line,
                    const std::vector<std::uint32_t>& seeds) {
         std::vector<std::uint32_t> chain{first};
-        for (const Vec3& point : points_within(line, needed_pieces(first, last)))
-            chain.push_back(graph_.add(point, query_.nearest(point).distance));
+        for (const Ball& ball : balls_within(line, needed_pieces(first, last)))
+            chain.push_back(graph_.add(ball.centre, ball.radius));
         chain.push_back(last);
         for (std::size_t i = 1; i < chain.size(); ++i) graph_.link(chain[i - 1], chain[i]);
         for (const std::uint32_t s : seeds) {
@@ -84,22 +84,30 @@ class Resampler {
         return std::max(1, static_cast<int>(pieces));
     }
 
-    // Points within the line, one local spacing apart. Corners stay where the shortcut past them is
+    struct Ball {
+        Vec3 centre;
+        float radius;  // inscribed
+    };
+    Ball ball_at(const Vec3& centre, const Ball& before) const {
+        const float within = before.radius + glm::distance(before.centre, centre);
+        return {centre, query_.nearest(centre, within).distance};
+    }
+
+    // Balls within the line, one local spacing apart. Corners stay where the shortcut past them is
     // not free.
-    std::vector<Vec3> points_within(const std::vector<Vec3>& line, int least_pieces) {
+    std::vector<Ball> balls_within(const std::vector<Vec3>& line, int least_pieces) {
         const float length = length_of(line);
         const float longest =
             length / static_cast<float>(std::max(least_pieces, even_pieces(length)));
-        std::vector<Vec3> points;
-        Vec3 at = line.front();
+        std::vector<Ball> balls;
+        Ball at = ball_at(line.front(), {line.front(), kInfinity});
         std::size_t next = 1;
         while (true) {
             const float spacing =
                 spacing_ == Spacing::Even
                     ? longest
-                    : std::min(longest,
-                               static_cast<float>(spacing_at(query_.nearest(at).distance)));
-            Vec3 here = at;
+                    : std::min(longest, static_cast<float>(spacing_at(at.radius)));
+            Vec3 here = at.centre;
             float left = spacing;
             std::size_t segment = next;
             while (segment < line.size() && glm::distance(here, line[segment]) <= left) {
@@ -109,19 +117,20 @@ class Resampler {
             const bool is_last = segment >= line.size() ||
                                  (segment + 1 == line.size() &&
                                   glm::distance(here, line.back()) < left + 0.5f * spacing &&
-                                  points.size() + 1 >= static_cast<std::size_t>(least_pieces));
-            Vec3 target = is_last ? line.back()
-                                  : here + (line[segment] - here) *
-                                               (left / glm::distance(here, line[segment]));
-            if (!query_.sees(at, target) && next < line.size() - (is_last ? 1 : 0) &&
-                line[next] != at && segment > next) {
-                target = line[next++];
-                points.push_back(at = target);
+                                  balls.size() + 1 >= static_cast<std::size_t>(least_pieces));
+            const Vec3 target = is_last ? line.back()
+                                        : here + (line[segment] - here) *
+                                                     (left / glm::distance(here, line[segment]));
+            if (!query_.sees(at.centre, target) && next < line.size() - (is_last ? 1 : 0) &&
+                line[next] != at.centre && segment > next) {
+                at = ball_at(line[next++], at);
+                balls.push_back(at);
                 continue;
             }
-            if (is_last) return points;
+            if (is_last) return balls;
             next = segment;
-            points.push_back(at = target);
+            at = ball_at(target, at);
+            balls.push_back(at);
         }
     }
 

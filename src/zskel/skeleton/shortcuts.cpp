@@ -9,7 +9,7 @@ namespace zskel {
 namespace {
 
 // A breadth-first walk from one seed over those that ended in its ball. `seen` holds, of every
-// seed, one more than the last that reached it.
+// seed, one more than the last that looked at it.
 std::vector<Shortcut> shortcuts_of(std::uint32_t first, std::span<const Vec3> ends,
                                    const VertexGraph& graph, float radius,
                                    std::span<const float> ranges,
@@ -22,9 +22,9 @@ std::vector<Shortcut> shortcuts_of(std::uint32_t first, std::span<const Vec3> en
     for (std::size_t i = 0; i < reached.size(); ++i) {
         for (const VertexGraph::Link& link : graph.of(reached[i])) {
             const std::uint32_t next = link.vertex;
-            if (glm::distance(ends[first], ends[next]) > radius) continue;
             if (seen[next] == first + 1) continue;
             seen[next] = first + 1;
+            if (glm::distance(ends[first], ends[next]) > radius) continue;
             reached.push_back(next);
             from.push_back(static_cast<std::uint32_t>(i));
             depth.push_back(depth[i] + 1);

@@ -37,13 +37,14 @@ inline void set_ray(RTCRay16& rays, std::size_t k, const Vec3& from, const Vec3&
 
 /// Casts rays from one point in unit directions, 16 at a time, and tells `take(ray, distance,
 /// triangle)` of each: kInfinity and kNone where nothing is hit.
+/// @param coherence  whether 16 rays on end go much the same way.
 template <typename Take>
 void cast_rays(const EmbreeScene& scene, const Vec3& from, std::span<const Vec3> directions,
-               const Take& take) {
+               RTCIntersectContextFlags coherence, const Take& take) {
     constexpr std::size_t kPacket = 16;
     RTCIntersectContext context;
     rtcInitIntersectContext(&context);
-    context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
+    context.flags = coherence;
     for (std::size_t first = 0; first < directions.size(); first += kPacket) {
         const std::size_t count = std::min(kPacket, directions.size() - first);
         RTCRayHit16 rays{};

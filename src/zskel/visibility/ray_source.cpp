@@ -24,7 +24,7 @@ class EmbreeSource : public VisibilitySource {
             for (std::size_t i = begin; i < end; ++i) {
                 float* distances = &maps.distance[i * maps.directions];
                 std::uint32_t* ids = &maps.id[i * maps.directions];
-                cast_rays(scene_, eyes[i], floats_,
+                cast_rays(scene_, eyes[i], floats_, RTC_INTERSECT_CONTEXT_FLAG_COHERENT,
                           [&](std::size_t k, float distance, std::uint32_t triangle) {
                               distances[k] = distance;
                               ids[k] = triangle;

@@ -44,6 +44,7 @@ struct NearestSearch {
 };
 
 constexpr float kPlaneSlack = 1.0001f;  // for rounding
+constexpr float kWithinSlack = 1.001f;
 
 bool visit_triangle(RTCPointQueryFunctionArguments* arguments) {
     auto& search = *static_cast<NearestSearch*>(arguments->userPtr);
@@ -67,10 +68,16 @@ bool visit_triangle(RTCPointQueryFunctionArguments* arguments) {
     return true;
 }
 
+constexpr std::size_t kLarge = 100000;  // triangles: from here on memory counts for more
+EmbreeScene::Shape shape_for(const Surface& surface) {
+    return surface.triangles.size() < kLarge ? EmbreeScene::Shape::Fast
+                                             : EmbreeScene::Shape::Compact;
+}
+
 }  // namespace
 
 struct SurfaceQuery::Impl {
-    explicit Impl(const Surface& s) : surface(s), scene(s, EmbreeScene::Shape::Compact) {}
+    explicit Impl(const Surface& s) : surface(s), scene(s, shape_for(s)) {}
     const Surface& surface;
     EmbreeScene scene;
 };
@@ -78,13 +85,13 @@ struct SurfaceQuery::Impl {
 SurfaceQuery::SurfaceQuery(const Surface& surface) : impl_(std::make_unique<Impl>(surface)) {}
 SurfaceQuery::~SurfaceQuery() = default;
 
-SurfaceQuery::Nearest SurfaceQuery::nearest(const Vec3& point) const {
+SurfaceQuery::Nearest SurfaceQuery::nearest(const Vec3& point, float within) const {
     NearestSearch search{&impl_->surface, point, {}};
-    RTCPointQuery query{point.x, point.y, point.z, 0.0f, kInfinity};
+    RTCPointQuery query{point.x, point.y, point.z, 0.0f, within * kWithinSlack};
     RTCPointQueryContext context;
     rtcInitPointQueryContext(&context);
     rtcPointQuery(impl_->scene.get(), &query, &context, visit_triangle, &search);
-    return search.best;
+    return search.best.triangle == kNone && within < kInfinity ? nearest(point) : search.best;
 }
 
 std::optional<SurfaceQuery::Hit> SurfaceQuery::first_hit(const Vec3& from, const Vec3& to) const {
@@ -129,7 +136,7 @@ float SurfaceQuery::free_way(const Vec3& from, const Vec3& direction, float fart
 void SurfaceQuery::free_ways(const Vec3& from, std::span<const Vec3> directions,
                              std::span<float> ways) const {
     ZSKEL_ASSERT(directions.size() == ways.size(), "one way a direction");
-    cast_rays(impl_->scene, from, directions,
+    cast_rays(impl_->scene, from, directions, RTC_INTERSECT_CONTEXT_FLAG_INCOHERENT,
               [&](std::size_t i, float distance, std::uint32_t /*triangle*/) {
                   ways[i] = std::min(distance, kFarthest);
               });

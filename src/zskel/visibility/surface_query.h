@@ -22,7 +22,8 @@ class SurfaceQuery {
         std::uint32_t triangle = kNone;
     };
     /// The surface point nearest to `point`: the inscribed radius, where `point` is inside.
-    Nearest nearest(const Vec3& point) const;
+    /// @param within  a distance known to hold one, up to rounding; less is looked at then.
+    Nearest nearest(const Vec3& point, float within = kInfinity) const;
 
     struct Hit {
         float fraction = 0.0f;  ///< of the way from `from` to `to`
