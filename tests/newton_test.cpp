@@ -7,6 +7,7 @@
 #include "zskel/core/parallel.h"
 #include "zskel/extract.h"
 #include "zskel/io/skeleton_formats.h"
+#include "zskel/mesh/read_mesh.h"
 #include "zskel/mesh/solid.h"
 #include "zskel/skeleton/spread.h"
 #include "zskel/visibility/cube_map.h"
@@ -129,6 +130,13 @@ TEST_CASE("newton: a torus is one cycle without ends, inside and centred") {
         CHECK(std::hypot(node.position.x, node.position.y) == doctest::Approx(0.35).epsilon(0.05));
     }
     CHECK(result.warnings.empty());
+}
+
+TEST_CASE("newton: two rings that meet are two cycles without ends, thick as the middle may be") {
+    const ExtractResult result = test::extract(read_mesh(ZSKEL_MODELS "/double_torus.obj"));
+    CHECK(graph_topology(result.graph).components == 1);
+    CHECK(graph_topology(result.graph).cycles == 2);
+    CHECK(count_ends(result.graph) == 0);
 }
 
 TEST_CASE("newton: two linked tori are two cycles, each its own") {

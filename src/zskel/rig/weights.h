@@ -27,9 +27,10 @@ struct WeightOptions {
 /// surface, (L + H) w = H h for every bone: L the cotangent Laplacian (no weight below 0, hence no
 /// w below 0), H = area / max(smoothing * radius, sqrt(area))^2, h 1 where the vertex started with
 /// the bone. The radius is that of the vertex's node, so thin limbs have sharp joints. Of what
-/// diffuses to a vertex only bones count that its own hangs on, or that hang on its own: what is
-/// between two limbs may follow both, but no part of one limb follows another. Vertices without a
-/// face, or without a node, follow the nearest bone.
+/// diffuses to a vertex only bones count that its own hangs on, or that hang on its own; and what
+/// lies between two limbs follows the one that pulls more, by as much as it pulls more, and for the
+/// rest what both hang on: no vertex follows two limbs. Vertices without a face, or without a node,
+/// follow the nearest bone.
 /// @param graph  of that mesh: its `vertex_node` is what counts.
 /// @see Baran and Popovic 2007 (heat weights); there heat starts where a straight way to the
 /// nearest bone is free, here from the patches.

@@ -54,7 +54,7 @@ Arcs arcs_of(std::span<const Connection> connections, std::span<const std::uint3
     return arcs;
 }
 
-// The thickest cluster of each part of a network.
+// The thickest cluster of each part of a network that has no cycle.
 std::vector<bool> thickest_of(const Arcs& arcs, std::span<const float> girths) {
     std::vector<bool> is_thickest(arcs.size(), false);
     std::vector<bool> seen(arcs.size(), false);
@@ -63,15 +63,17 @@ std::vector<bool> thickest_of(const Arcs& arcs, std::span<const float> girths) {
         std::vector<std::uint32_t> part{first};
         seen[first] = true;
         std::uint32_t thickest = first;
+        std::size_t ends = 0;  // of connections
         for (std::size_t i = 0; i < part.size(); ++i) {
             if (girths[part[i]] > girths[thickest]) thickest = part[i];
+            ends += arcs[part[i]].size();
             for (const Arc& arc : arcs[part[i]]) {
                 if (seen[arc.to]) continue;
                 seen[arc.to] = true;
                 part.push_back(arc.to);
             }
         }
-        is_thickest[thickest] = true;
+        is_thickest[thickest] = ends / 2 < part.size();
     }
     return is_thickest;
 }

@@ -5,6 +5,8 @@
 namespace zskel {
 namespace {
 
+constexpr float kLeastLeft = 0.5f;  // of a branch with an end, in radii
+
 using Strand = std::vector<std::uint32_t>;
 
 class Zipper {
@@ -51,10 +53,11 @@ class Zipper {
         const float least =
             static_cast<float>(options_.zip_least_radii) * query_.nearest(start).distance;
         if (glm::distance(start, graph_.at(joint)) < least) return false;
-        // An end that lies beside another branch most of the way stays as it is.
+        // An end that lies beside another branch stays as it is.
         const bool has_end = graph_.nodes[goes.back()].links.size() == 1;
         const Strand left(goes.begin() + static_cast<std::ptrdiff_t>(last), goes.end());
-        if (has_end && 2.0f * graph_.length_along(left) < graph_.length_along(goes)) return false;
+        const float radius = query_.nearest(graph_.at(joint)).distance;
+        if (has_end && graph_.length_along(left) < kLeastLeft * radius) return false;
         const auto& kept = graph_.nodes[joint].links;
         const bool is_double =
             next == joint || std::find(kept.begin(), kept.end(), next) != kept.end();
