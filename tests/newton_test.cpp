@@ -119,6 +119,22 @@ TEST_CASE("newton: a flat end is left through its middle, not at a corner") {
         CHECK(std::hypot(node.position.x, node.position.y) < 0.02);
 }
 
+TEST_CASE("newton: what is too small or flat for any limb is a node or a line") {
+    for (const double width : {1.0, 0.3, 0.1, 0.01}) {
+        for (const double height : {1.0, 0.1, 0.001}) {
+            Mesh tetrahedron;
+            tetrahedron.name = "tetrahedron";
+            tetrahedron.positions = {
+                {0, 0, 0}, {1, 0, 0}, {0.2, width, 0}, {0.3, 0.2 * width, height}};
+            tetrahedron.triangles = {{0, 2, 1}, {0, 1, 3}, {1, 2, 3}, {2, 0, 3}};
+            const ExtractResult result = test::extract(tetrahedron);
+            CHECK(graph_topology(result.graph).components == 1);
+            CHECK(graph_topology(result.graph).cycles == 0);
+            CHECK(count_ends(result.graph) <= 4);
+        }
+    }
+}
+
 TEST_CASE("newton: a torus is one cycle without ends, inside and centred") {
     const ExtractResult result = test::extract(test::torus());
     CHECK(graph_topology(result.graph).components == 1);

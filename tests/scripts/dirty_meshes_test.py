@@ -1,5 +1,6 @@
 """Our models with defects put in, alone and in pairs: each gives a skeleton or an input error; at least 95 % give
-the clean model's skeleton, and those that do not say in a warning that they may be wrong. Prints a table by defect.
+the clean model's skeleton, and those that do not say in a warning that they may be wrong: one that is more than the
+count of a repair that changes no shape. Prints a table by defect.
 
 Usage: dirty_meshes_test.py PROGRAM MODELS [--cgal PROGRAM] [MODEL...]
   --cgal  prints, beside ours, how many of the same files the benchmark's CGAL program gets right
@@ -22,6 +23,20 @@ DISTANCE = 0.01  # of the diagonal: mean distance to the clean model's skeleton
 SHARE = 0.95
 SECONDS = 120
 PEER_SECONDS = 10
+SHAPE_STAYS = (  # warnings that say nothing against a skeleton
+    "vertices welded to another at the same position",
+    "vertices without a face",
+    "faces without area",
+    "duplicate faces",
+    "faces turned",
+    "inside-out components turned",
+)
+
+
+class Chance(random.Random):
+    """Random numbers, and where the clean model is thickest: the place and its radius."""
+
+    deep = (np.zeros(3), 0.0)
 
 
 def read_obj(path):
@@ -135,6 +150,79 @@ def polygons(v, f, rng):
     return v, out
 
 
+def opening(v, f, rng):
+    """The outermost of one side is cut off."""
+    ahead = np.array([rng.gauss(0.0, 1.0) for _ in range(3)])
+    along = v @ (ahead / np.linalg.norm(ahead))
+    limit = along.max() - 0.01 * diagonal(v)
+    return v, [face for face in f if max(along[i] for i in face) < limit]
+
+
+def self_crossing(v, f, rng):
+    """Corners pushed past a neighbour and in, through the faces beyond it."""
+    v = v.copy()
+    for face in rng.sample(f, 10):
+        a, b, c = (v[i] for i in face[:3])
+        normal = np.cross(b - a, c - a)
+        length = np.linalg.norm(normal)
+        if length > 0.0:
+            v[face[0]] = b + (b - a) - normal / length * 0.5 * np.linalg.norm(b - a)
+    return v, f
+
+
+def ball(place, radius):
+    """Of 80 faces."""
+    g = (1.0 + 5.0**0.5) / 2.0
+    v = [p for a in (-1, 1) for b in (-g, g) for p in ((0, a, b), (a, b, 0), (b, 0, a))]
+    v = [np.array(p) / np.linalg.norm(p) for p in v]
+    near = 1.1 * min(np.linalg.norm(v[0] - p) for p in v[1:])
+    f = [
+        (i, j, k) if np.dot(np.cross(v[j] - v[i], v[k] - v[i]), v[i]) > 0 else (i, k, j)
+        for i, j, k in itertools.combinations(range(12), 3)
+        if max(np.linalg.norm(v[i] - v[j]), np.linalg.norm(v[j] - v[k]), np.linalg.norm(v[k] - v[i])) < near
+    ]
+    middle = {}
+
+    def between(a, b):
+        key = min(a, b), max(a, b)
+        if key not in middle:
+            middle[key] = len(v)
+            v.append((v[a] + v[b]) / np.linalg.norm(v[a] + v[b]))
+        return middle[key]
+
+    finer = []
+    for a, b, c in f:
+        x, y, z = between(a, b), between(b, c), between(c, a)
+        finer += [(a, x, z), (x, b, y), (z, y, c), (x, y, z)]
+    return np.array(v) * radius + place, finer
+
+
+def with_part(v, f, part):
+    return np.vstack([v, part[0]]), f + [tuple(i + len(v) for i in face) for face in part[1]]
+
+
+def nested(v, f, rng):
+    """A bubble where it is thickest."""
+    place, radius = rng.deep
+    v2, f2 = ball(place + 0.4 * radius, 0.15 * radius)
+    return with_part(v, f, (v2, [face[::-1] for face in f2]))
+
+
+def overlapping(v, f, rng):
+    """A second part that sticks out of the first a little: --join makes one of them."""
+    place, radius = rng.deep
+    return with_part(v, f, ball(place, 1.1 * radius))
+
+
+def sheet(v, f, rng):
+    """A leaf beside the model, with an edge to no one."""
+    side = 0.1 * diagonal(v)
+    corner = v.max(axis=0) + 0.2 * diagonal(v)
+    leaf = [corner + side * np.array([x, y, 0.0]) for x in (0, 1, 2) for y in (0, 1, 2)]
+    cells = [(3 * x + y, 3 * x + y + 3, 3 * x + y + 4, 3 * x + y + 1) for x in (0, 1) for y in (0, 1)]
+    return with_part(v, f, (np.array(leaf), cells))
+
+
 def tiny(v, f, rng):
     return v * 1e-9, f
 
@@ -148,14 +236,18 @@ def far_away(v, f, rng):
 
 
 DEFECTS = [soup, cracked, half_flipped, inside_out, duplicates, degenerate, holes, fins, t_junctions, loose_vertices,
-           shuffled, polygons, tiny, huge, far_away]  # fmt: skip
+           shuffled, polygons, opening, self_crossing, nested, overlapping, sheet, tiny, huge, far_away]  # fmt: skip
 PLACED = {tiny, huge, far_away}  # come last: other defects go by sizes
+FIRST = {opening, nested, overlapping, sheet}  # go by the clean model's places
+OPTIONS = {overlapping: ["--join"]}
 SURE = {tiny: lambda p: p / 1e-9, huge: lambda p: p / 1e9, far_away: lambda p: p - 1e6}
 
 
 def pairs():
     for a, b in itertools.combinations(DEFECTS, 2):
         if a in PLACED and b in PLACED or soup in (a, b) and cracked in (a, b):
+            continue
+        if overlapping in (a, b):  # --join takes a closed surface's inside for granted; alone only
             continue
         yield (a, b)
 
@@ -205,17 +297,23 @@ def is_like(skeleton, clean, size):
     return mean_distance(curve(nodes, edges), curve(clean_nodes, clean_edges)) <= DISTANCE * size
 
 
-def back(skeleton, defects):
+def back(skeleton, defects, clean_vertices):
     nodes, edges = skeleton
     for defect in defects:
         if defect in SURE:
             nodes = SURE[defect](nodes)
+    if sheet in defects:  # what lies on the leaf is the leaf's
+        limit = clean_vertices.max(axis=0) + 0.1 * diagonal(clean_vertices)
+        kept = [i for i, p in enumerate(nodes) if not (p > limit).all()]
+        number = {old: new for new, old in enumerate(kept)}
+        nodes = nodes[kept]
+        edges = [(number[a], number[b]) for a, b in edges if a in number and b in number]
     return nodes, edges
 
 
-def extract(program, path, out):
+def extract(program, path, out, options=()):
     """Exit code, document or none, what was said."""
-    command = [program, "--threads", "1", "extract", path, "-o", out, "--backend", "cpu"]
+    command = [program, "--threads", "1", "extract", path, "-o", out, "--backend", "cpu", *options]
     try:
         done = subprocess.run(command, capture_output=True, text=True, timeout=SECONDS, errors="replace")
     except subprocess.TimeoutExpired:
@@ -247,29 +345,37 @@ def main():
     cases = [(name, (d,)) for name in names for d in DEFECTS]
     both = [(name, pair) for pair in pairs() for name in names]
     random.Random(1).shuffle(both)
-    cases += both[: max(0, 216 - len(cases))]
+    cases += both[: max(0, 300 - len(cases))]
     with tempfile.TemporaryDirectory() as folder:
         clean = {}
         for name in names:
             code, document, said = extract(program, f"{models}/{name}.obj", f"{folder}/{name}.json")
             assert code == 0, (name, said)
             vertices, faces = read_obj(f"{models}/{name}.obj")
-            clean[name] = (vertices, faces, skeleton_of(document))
+            thickest = max(document["nodes"], key=lambda n: n["radius"])
+            deep = (np.array(thickest["position"]), thickest["radius"])
+            clean[name] = (vertices, faces, skeleton_of(document), deep)
 
         def run(case):
             number, (name, defects) = case
-            vertices, faces, skeleton = clean[name]
-            rng = random.Random(number)
-            for defect in sorted(defects, key=lambda d: d in PLACED):
+            vertices, faces, skeleton, deep = clean[name]
+            rng = Chance(number)
+            rng.deep = deep
+            for defect in sorted(defects, key=lambda d: (d not in FIRST, d in PLACED)):
                 vertices, faces = defect(vertices, faces, rng)
             path = f"{folder}/{number}.obj"
             with open(path, "w") as file:
                 file.write(obj_text(vertices, faces))
-            code, document, said = extract(program, path, f"{folder}/{number}.json")
+            options = [o for defect in defects for o in OPTIONS.get(defect, [])]
+            code, document, said = extract(program, path, f"{folder}/{number}.json", options)
             size = diagonal(clean[name][0])
-            right = document is not None and is_like(back(skeleton_of(document), defects), skeleton, size)
+            right = document is not None and is_like(
+                back(skeleton_of(document), defects, clean[name][0]), skeleton, size
+            )
             theirs = cgal(peer, path, f"{folder}/{number}.cgal.json") if peer else None
-            peer_right = theirs is not None and is_like(back(theirs, defects), skeleton, 3 * size)
+            peer_right = theirs is not None and is_like(
+                back(theirs, defects, clean[name][0]), skeleton, 3 * size
+            )
             return name, defects, code, document, said, right, peer_right
 
         with ThreadPoolExecutor(os.cpu_count()) as pool:
@@ -284,7 +390,7 @@ def main():
         if code == 0 and not right:
             warnings = document["warnings"]
             print(f"not the clean skeleton: {label}; warnings: {warnings}")
-            if not warnings:
+            if all(w.startswith(SHAPE_STAYS) for w in warnings):
                 failures.append(f"{label}: wrong without a word")
         for defect in defects:
             row = rows[defect.__name__]

@@ -330,6 +330,7 @@ class LimbGrower {
         const float step = length_of(line) / static_cast<float>(kLimbPieces);
         Outside all;
         all.body_girth = girths_[limb.way.back()];
+        if (line.size() < 2) return all;
         float before = 0.0f;  // the length up to the segment's start
         std::size_t segment = 1;
         for (int k = 0; k < kLimbPieces; ++k) {
