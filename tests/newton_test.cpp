@@ -119,7 +119,7 @@ TEST_CASE("newton: a flat end is left through its middle, not at a corner") {
         CHECK(std::hypot(node.position.x, node.position.y) < 0.02);
 }
 
-TEST_CASE("newton: what is too small or flat for any limb is a node or a line") {
+TEST_CASE("newton: a tetrahedron of any shape has a skeleton in one piece") {
     for (const double width : {1.0, 0.3, 0.1, 0.01}) {
         for (const double height : {1.0, 0.1, 0.001}) {
             Mesh tetrahedron;

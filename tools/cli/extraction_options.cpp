@@ -32,8 +32,7 @@ void add_method_options(CLI::App& command, ExtractionOptions& options) {
                     newton.spread.min_seeds = newton.spread.max_seeds = parse_seeds(text);
                 },
                 "How many seeds are spread over the surface, or all: one a vertex [from 300, as "
-                "many "
-                "as the thickness around them asks for]")
+                "many as the thickness around them asks for]")
             ->type_name("N|all")
             ->group(kNewtonGroup),
         command

@@ -138,7 +138,6 @@ class LimbGrower {
     struct Limb {
         std::vector<std::uint32_t> way;  // clusters, from the outermost to the kept one
         std::vector<Vec3> tip;
-        std::vector<float> tip_girths;
     };
 
     static Coverage seed_coverage(const ClusterContext& context) {
@@ -229,7 +228,6 @@ class LimbGrower {
         Limb limb;
         limb.way = way_to_kept(context_.clusters.of_point[seed]);
         limb.tip = tip_of(limb.way.front(), seed);
-        limb.tip_girths = girths_at(context_.query, limb.tip);
         const float out = sticking_out(seed);
         if (!may_keep(limb) || !is_limb(limb, static_cast<double>(out))) {
             ++out_.rejected;
@@ -245,9 +243,9 @@ class LimbGrower {
             way.trunk = ways_[way.next].trunk + cost_of(connections_[way.connection]);
             keep_connection(way.connection);
         }
+        const std::vector<float> tip_girths = girths_at(context_.query, limb.tip);
         for (std::size_t i = 1; i < limb.tip.size(); ++i)
-            coverage_.add(std::span(limb.tip).subspan(i - 1, 2), limb.tip_girths[i - 1],
-                          limb.tip_girths[i]);
+            coverage_.add(std::span(limb.tip).subspan(i - 1, 2), tip_girths[i - 1], tip_girths[i]);
         if (!limb.tip.empty()) out_.tips.push_back({limb.way.front(), limb.tip});
         limb.way.pop_back();
         keep(limb.way);
@@ -427,7 +425,6 @@ class LimbGrower {
         for (int k = 0; k <= kTipPieces; ++k)
             limb.tip.push_back(
                 from + ahead * (last * static_cast<float>(k) / static_cast<float>(kTipPieces)));
-        limb.tip_girths = girths_at(context_.query, limb.tip);
         return limb;
     }
 

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "zskel/skeleton/path.h"
+
 namespace zskel {
 namespace {
 
@@ -14,14 +16,18 @@ class Zipper {
     Zipper(CurveGraph& graph, const SurfaceQuery& query, const RefineOptions& options)
         : graph_(graph), query_(query), options_(options) {}
 
-    // Every zip removes a node, so this ends.
+    // Where two parted farther on, a third may have come along: over all junctions until none is
+    // left. Every zip removes a node, so this ends.
     std::size_t run() {
         std::size_t zipped = 0;
-        for (std::uint32_t n = 0; n < graph_.nodes.size();) {
-            const std::size_t before = zipped;
-            if (graph_.nodes[n].links.size() > 2 && zip_at(n)) ++zipped;
-            // Where two parted farther on, a third may have come along.
-            n = zipped > before ? 0 : n + 1;
+        for (bool has_changed = true; has_changed;) {
+            has_changed = false;
+            for (std::uint32_t n = 0; n < graph_.nodes.size(); ++n) {
+                while (graph_.nodes[n].links.size() > 2 && zip_at(n)) {
+                    ++zipped;
+                    has_changed = true;
+                }
+            }
         }
         return zipped;
     }
@@ -82,21 +88,19 @@ class Zipper {
             while (i + 2 < stays.size() && glm::distance(p, graph_.at(stays[i + 1])) <=
                                                glm::distance(p, graph_.at(stays[i])))
                 ++i;
-            float aside = distance_to_edge(p, stays, i);
-            if (i > 0) aside = std::min(aside, distance_to_edge(p, stays, i - 1));
+            const float aside = distance_to(points_round(stays, i), p);
             if (aside > static_cast<float>(options_.zip_radii) * query_.nearest(p).distance) break;
             out = {k, i};
         }
         return out;
     }
 
-    float distance_to_edge(const Vec3& p, const Strand& strand, std::size_t i) const {
-        const Vec3& a = graph_.at(strand[i]);
-        const Vec3 along = graph_.at(strand[i + 1]) - a;
-        const float square = glm::dot(along, along);
-        const float share =
-            square > 0.0f ? std::clamp(glm::dot(p - a, along) / square, 0.0f, 1.0f) : 0.0f;
-        return glm::distance(p, a + along * share);
+    // A node's place between those before and after it.
+    std::vector<Vec3> points_round(const Strand& strand, std::size_t i) const {
+        std::vector<Vec3> points;
+        for (std::size_t k = i > 0 ? i - 1 : 0; k <= i + 1; ++k)
+            points.push_back(graph_.at(strand[k]));
+        return points;
     }
 
     CurveGraph& graph_;
