@@ -3,6 +3,7 @@
 Usage: batch_test.py PROGRAM MODELS_DIR CASE...     batch_test.py --list names the cases
 """
 
+import errno
 import json
 import os
 import pty
@@ -110,9 +111,10 @@ def workers_of(process):
 
 def wait_until(condition, what):
     end = time.monotonic() + PATIENCE_S
-    while not condition():
+    while not (met := condition()):
         expect(time.monotonic() < end, f"waited in vain for: {what}")
         time.sleep(0.01)
+    return met
 
 
 def signal_quietly(pid, number):
@@ -133,6 +135,16 @@ def lines_of(path):
 # A pipe that nobody writes to holds up whoever opens it: an item that hangs.
 def make_hanging(path):
     os.mkfifo(path)
+
+
+def open_if_read(path):
+    """A pipe's other end, once somebody reads from it; the reader then goes on waiting, for what is never written."""
+    try:
+        return os.open(path, os.O_WRONLY | os.O_NONBLOCK)
+    except OSError as error:
+        if error.errno != errno.ENXIO:
+            raise
+        return None
 
 
 def case_hostile():
@@ -332,26 +344,27 @@ def case_shard():
 
 def case_signals():
     copy_models()
-    make_hanging("in/hang.obj")
+    hanging = "in/zz_hang.obj"  # the last: when a worker reads it, all others have had their turn
+    make_hanging(hanging)
     line = ["in", *QUICK, "-o", "out/{stem}.json", "--workers", "2", "--item-timeout", "0", "--json"]
     for number in (signal.SIGTERM, signal.SIGINT, signal.SIGHUP):
         process = start(*line)
         wait_until(lambda: lines_of("batch.jsonl") == len(SMALL), "all others done")
         # Before that line is there, the first round's items are not; later rounds find them done at once.
-        wait_until(lambda: workers_of(process), "a worker")
-        time.sleep(0.5)
+        held = wait_until(lambda: open_if_read(hanging), "a worker at the pipe")
         workers = workers_of(process)
         for pid in [process.pid, *workers]:  # as a terminal or a cluster does
             signal_quietly(pid, number)
         out, err = process.communicate(timeout=PATIENCE_S)
+        os.close(held)
         expect(process.returncode == 128 + number, f"exit code {process.returncode} after signal {number}: {err}")
         tally = json.loads(out)
         check_sum(tally)
         expect(tally["left"] == 1 and tally["failed"] == 0, tally)
         expect(all(state_of(pid) in ("", "Z", "X") for pid in workers), "a worker goes on")
         check_outputs("out", [f"{name}.json" for name in SMALL])
-    os.remove("in/hang.obj")
-    shutil.copy("in/y.obj", "in/hang.obj")
+    os.remove(hanging)
+    shutil.copy("in/y.obj", hanging)
     tally = summary(*line[:-1])
     expect((tally["ok"] + tally["warned"], tally["skipped"]) == (1, len(SMALL)), tally)
 
