@@ -133,8 +133,10 @@ TEST_CASE("manifest: what is malformed names its line") {
                          InputError);
     CHECK_THROWS_WITH_AS(entries_of_csv("model\n\"\"\n", "t"), doctest::Contains("row 2"),
                          InputError);
-    for (const char* line : {"x", "[1]", "{}", "{\"model\": {}}"}) {
-        CHECK_THROWS_WITH_AS(entries_of_json_lines(std::string("\n") + line + "\n", "t"),
+    const std::string deep(300000, '[');  // more than a stack would hold
+    for (const std::string& line : {std::string("x"), std::string("[1]"), std::string("{}"),
+                                    std::string("{\"model\": {}}"), "{\"model\": " + deep}) {
+        CHECK_THROWS_WITH_AS(entries_of_json_lines("\n" + line + "\n", "t"),
                              doctest::Contains("t: line 2"), InputError);
     }
 }

@@ -157,6 +157,20 @@ POSES = [
 ]
 
 
+MANIFESTS = [
+    "l{dir}/{stem}.json\na.obj\r\n# left out\n\nb/c d.ply\n",
+    'c{stem}_{index}.json\nid,model,output\n7,a.obj,o.json\n"8","b ""q"".obj",\n',
+    'jout/{id}.json\n{"model": "a.obj", "id": 3}\n{"model": "b.obj", "output": "o.json", "id": "x"}\n',
+]
+
+
+def journal():
+    head = {"status": "ok", "reason": "", "exit_code": 0, "text": "", "warnings": ["w"]}
+    tail = {"seconds": 0.5, "peak_memory_kib": 9, "backend": "cpu", "key": "0a"}
+    lines = [{"model": f"{i}.obj", "output": f"{i}.json", **head, **tail} for i in range(2)]
+    return "".join(json.dumps(line, separators=(",", ":")) + "\n" for line in lines) + '{"model":"torn'
+
+
 def packed_mesh(choice, shape, scale=0):
     """As chain_fuzz.cpp unpacks it."""
     vertices, faces = shape
@@ -178,6 +192,8 @@ def all_seeds(models):
         "maps": [maps(4), maps(5), map_node() * 2],
         "index": [index()],
         "pose": [json.dumps(p) for p in POSES],
+        "manifest": MANIFESTS,
+        "journal": [journal()],
         "chain": [packed_mesh(c, s) for c in (0, 2, 4, 8, 16, 24) for s in (wide, ring(), TETRAHEDRON)]
         + [bytes([c]) + obj(s).encode() for c in (1, 3) for s in (CUBE, ring())],
     }

@@ -31,15 +31,19 @@ std::string readable(const std::string& output) {
 
 }  // namespace
 
-Journal::Journal(const std::string& path) : path_(path) {
-    file_ = ::open(path.c_str(), O_RDWR | O_CREAT | O_APPEND | O_CLOEXEC, 0666);
+Journal::Journal(const std::string& path, int file) : path_(path), file_(file) {
     if (file_ < 0) fail(path_, "cannot be opened");
+}
+
+// Whole once it has delegated: the file is closed when what follows throws.
+Journal::Journal(const std::string& path)
+    : Journal(path, ::open(path.c_str(), O_RDWR | O_CREAT | O_APPEND | O_CLOEXEC, 0666)) {
     lock();
     read();
 }
 
 Journal::~Journal() {
-    if (file_ >= 0) ::close(file_);
+    ::close(file_);
 }
 
 // A record lock is the process's own: it ends with it however that ends, and children have none.

@@ -34,12 +34,13 @@ class Journal {
     std::size_t strange_lines() const { return strange_lines_; }
 
   private:
+    Journal(const std::string& path, int file);
     void lock();
     void read();
     void take_lines(const std::string& text);
 
     std::string path_;
-    int file_ = -1;
+    int file_;
     std::size_t size_ = 0;
     std::size_t strange_lines_ = 0;
     std::unordered_map<std::string, Record> last_;

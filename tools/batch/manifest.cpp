@@ -11,6 +11,8 @@
 #include "batch/csv.h"
 #include "zskel/core/error.h"
 #include "zskel/core/input_file.h"
+#include "zskel/io/json_place.h"
+#include "zskel/mesh/text_cursor.h"
 
 namespace zskel::batch {
 namespace {
@@ -87,11 +89,12 @@ void for_each_line(std::string_view text, const Use& use) {
 std::string text_of(const Json& value, const std::string& where) {
     if (value.is_string()) return value.get<std::string>();
     if (value.is_number() || value.is_boolean()) return value.dump();
-    throw InputError(fmt::format("{}: {} is neither a text nor a number", where, value.dump()));
+    throw InputError(
+        fmt::format("{}: {} is neither a text nor a number", where, zskel::quoted(value.dump())));
 }
 
 Entry entry_of_json(std::string_view line, const std::string& where) {
-    const Json object = Json::parse(line, nullptr, false);
+    const Json object = parse_json(line, where);
     if (!object.is_object())
         throw InputError(fmt::format(R"({}: not an object such as {{"model": "a.obj"}})", where));
     Entry entry;
