@@ -39,11 +39,6 @@ class JournalFile {
     int file_ = ::memfd_create("journal", MFD_CLOEXEC);
 };
 
-std::size_t end_of_whole_lines(std::string_view bytes) {
-    const std::size_t last = bytes.rfind('\n');
-    return last == std::string_view::npos ? 0 : last + 1;
-}
-
 Record new_record() {
     Record record;
     record.model = "new.obj";
@@ -59,7 +54,7 @@ void check(const JournalFile& file, std::string_view before) {
         strange = journal.strange_lines();
         journal.append(new_record());
     }
-    const std::string kept(before.substr(0, end_of_whole_lines(before)));
+    const std::string kept(before.substr(0, before.rfind('\n') + 1));
     fuzz::require(file.bytes() == kept + to_line(new_record()) + "\n",
                   "whole lines are kept, a torn one is dropped, the new one is last");
     const Journal again(file.path());

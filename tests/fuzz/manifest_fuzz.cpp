@@ -1,11 +1,11 @@
 // Any bytes as a manifest: the first byte chooses the form, the rest of the first line is the
 // template of the outputs. What was read is planned, and read back from a manifest written of it.
+#include <algorithm>
 #include <string>
 #include <vector>
 
 #include "batch/csv.h"
 #include "batch/manifest.h"
-#include "batch/output_template.h"
 #include "batch/plan.h"
 #include "fuzz.h"
 
@@ -14,16 +14,10 @@ using namespace zskel::batch;
 
 namespace {
 
-std::string quoted_field(const std::string& text) {
-    std::string out = "\"";
-    for (const char c : text) out += c == '"' ? "\"\"" : std::string(1, c);
-    return out + "\"";
-}
-
 std::string csv_of(const std::vector<Entry>& entries) {
     std::string out = "model,output\n";
     for (const Entry& entry : entries)
-        out += quoted_field(entry.model) + "," + quoted_field(entry.output) + "\n";
+        out += csv_field(entry.model) + "," + csv_field(entry.output) + "\n";
     return out;
 }
 

@@ -82,4 +82,11 @@ std::vector<std::vector<std::string>> parse_csv(std::string_view text, std::stri
     return CsvReader(text, name).rows();
 }
 
+std::string csv_field(const std::string& text) {
+    if (text.find_first_of("\",\r\n") == std::string::npos) return text;
+    std::string out = "\"";
+    for (const char c : text) out += c == '"' ? "\"\"" : std::string(1, c);
+    return out + "\"";
+}
+
 }  // namespace zskel::batch

@@ -12,4 +12,7 @@ namespace zskel::batch {
 /// closed or that stands in the middle of a field.
 std::vector<std::vector<std::string>> parse_csv(std::string_view text, std::string_view name);
 
+/// A text as a field of such a file, in quotes where it needs them.
+std::string csv_field(const std::string& text);
+
 }  // namespace zskel::batch

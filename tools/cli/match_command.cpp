@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 #include <numeric>
 
+#include "batch/csv.h"
 #include "command.h"
 #include "zskel/core/input_file.h"
 #include "zskel/core/log.h"
@@ -124,21 +125,13 @@ std::vector<std::vector<double>> distances_of(const std::vector<Shape>& shapes) 
     return out;
 }
 
-// A field of CSV (RFC 4180).
-std::string field(const std::string& text) {
-    if (text.find_first_of("\",\r\n") == std::string::npos) return text;
-    std::string out = "\"";
-    for (const char c : text) out += c == '"' ? "\"\"" : std::string(1, c);
-    return out + "\"";
-}
-
 std::string matrix_csv(const std::vector<Shape>& shapes,
                        const std::vector<std::vector<double>>& distances) {
     std::string out = "shape";
-    for (const Shape& shape : shapes) out += "," + field(shape.name);
+    for (const Shape& shape : shapes) out += "," + batch::csv_field(shape.name);
     out += "\n";
     for (std::size_t a = 0; a < shapes.size(); ++a) {
-        out += field(shapes[a].name);
+        out += batch::csv_field(shapes[a].name);
         for (const double d : distances[a]) out += fmt::format(",{:.6g}", d);
         out += "\n";
     }
