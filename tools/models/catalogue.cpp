@@ -26,7 +26,7 @@ const std::vector<Recipe>& catalogue() {
         recipe("hand", shape_hand, {.faces = 2000, .ends = 6}),
         recipe("horse", shape_horse, {.faces = 2000, .ends = 8}),
         recipe("horse_8k", shape_horse, {.faces = 8000, .ends = 8}, 8),
-        recipe("plant", shape_plant, {.faces = 16000, .ends = 15}, 8),
+        recipe("plant", shape_plant, {.faces = 32000, .ends = 15}, 8),
         {"vessels", [] { return make_vessels("vessels", 0); }},
         {"vessels_open", [] { return make_vessels("vessels_open", 4); }},
         {"teapot", make_teapot},
