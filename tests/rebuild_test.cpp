@@ -108,6 +108,20 @@ TEST_CASE("RecallMap: what lies behind a step in depth is not believed") {
     CHECK(map.look_at({0.5, 2.0, 0.3}).inside == doctest::Approx(2.0));
 }
 
+TEST_CASE("RecallMap: walls too steep for the texels across a groove do not make it deeper") {
+    // Depth 0.38 in the two rows of texels at the middle of the face, and what rises from there on
+    // both sides would meet at 0.55 between them.
+    const auto groove = [](const DVec3& d) {
+        const DVec3 size = glm::abs(d);
+        if (d.x < std::max(size.y, size.z)) return 0.05;
+        return 1.0 / (1.82 * d.x + 13.0 * size.y);
+    };
+    const RecallMap map(map_of(DVec3(0.0), 16, groove), 16);
+    CHECK(map.look_at({0.37, 0.0, 0.0}).inside > 0.0);
+    CHECK(map.look_at({0.39, 0.0, 0.0}).inside < 0.0);
+    CHECK(map.look_at({0.5, 0.0, 0.0}).inside < 0.0);
+}
+
 TEST_CASE("RecallMap: texels that missed end at the ball that is surely free") {
     const auto half_open = [](const DVec3& d) { return d.x < 0.0 ? 1.0 : kInfinity; };
     const RecallMap map(map_of(DVec3(0.0), 16, half_open), 16);
