@@ -138,6 +138,7 @@ class Assembler {
         sums.rejected_limbs += part.rejected_limbs;
         sums.refine.merged_junctions += part.refine.merged_junctions;
         sums.refine.extended_ends += part.refine.extended_ends;
+        sums.refine.unfolded_branches += part.refine.unfolded_branches;
         sums.refine.zipped_branches += part.refine.zipped_branches;
         result_.warnings.insert(result_.warnings.end(), part.warnings.begin(), part.warnings.end());
     }

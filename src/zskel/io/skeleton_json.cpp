@@ -111,6 +111,7 @@ Json statistics_json(const ExtractResult& result) {
             {"limbs", s.limbs},
             {"rejected_limbs", s.rejected_limbs},
             {"merged_junctions", s.refine.merged_junctions},
+            {"unfolded_branches", s.refine.unfolded_branches},
             {"zipped_branches", s.refine.zipped_branches},
             {"extended_ends", s.refine.extended_ends},
             {"seeds", s.seeds},

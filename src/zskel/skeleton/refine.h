@@ -37,7 +37,8 @@ RefineOptions active_contour();
 struct RefineReport {
     std::size_t merged_junctions = 0;
     std::size_t extended_ends = 0;
-    std::size_t zipped_branches = 0;  ///< see `zip_branches`
+    std::size_t unfolded_branches = 0;  ///< see `unfold_branches`
+    std::size_t zipped_branches = 0;    ///< see `zip_branches`
 };
 
 /// Merges junctions, extends ends to the tips, centres and smooths the branches, makes one of those

@@ -1,0 +1,13 @@
+#pragma once
+
+#include "zskel/skeleton/refine.h"
+
+namespace zskel {
+
+/// A branch that goes out into a limb and back beside itself becomes a limb with an end, and a
+/// junction where the two ways part. Cycles stay, and no segment that was free is left unfree.
+/// @return how many limbs came of it.
+std::size_t unfold_branches(CurveGraph& graph, const SurfaceQuery& query,
+                            const RefineOptions& options);
+
+}  // namespace zskel
