@@ -16,7 +16,7 @@ SECONDS = 60
 ANSWERS = {0: "skeleton", 3: "input error", 7: "limit"}
 OPTIONS = [
     [],
-    ["--join", "--join-voxel", "0.02"],
+    ["--join", "--join-voxel", "VOXEL"],
     ["--method", "paper", "--max-steps", "60"],
     ["--no-caps"],
     ["--no-repair"],
@@ -140,9 +140,12 @@ def assembly(number):
         all_faces.append(faces + count)
         count += len(points)
     points = np.concatenate(all_points)
+    scale = 1.0
     if rng.random() < 0.1:
-        points = points * 10 ** rng.uniform(-9, 9) + 10 ** rng.uniform(0, 6) * (rng.random() < 0.3)
-    return points, np.concatenate(all_faces), OPTIONS[rng.integers(len(OPTIONS))]
+        scale = 10 ** rng.uniform(-9, 9)
+        points = points * scale + 10 ** rng.uniform(0, 6) * (rng.random() < 0.3)
+    options = OPTIONS[rng.integers(len(OPTIONS))]
+    return points, np.concatenate(all_faces), [o.replace("VOXEL", f"{0.02 * scale:g}") for o in options]
 
 
 def main(program, first, last):
