@@ -85,7 +85,13 @@ void judge(const RecordingSource& source, const Vec3& from, const Vec3& to,
     walk.grown += squared_in(after, axes) > squared_in(before, axes) ? 1 : 0;
 }
 
-// The jump moves along the force; a step in the Jacobian's two strongest axes, or in all three.
+// Along the strongest of the Jacobian's axes a step moves always.
+std::size_t axes_of_step(const Eigen3& eigen, const NewtonOptions& options) {
+    if (eigen.values[2] > options.third_axis * eigen.values[1]) return 3;
+    return std::abs(eigen.values[1]) < options.second_axis * eigen.values[0] ? 1 : 2;
+}
+
+// The jump moves along the force.
 Walk judge_paths(const RecordingSource& source, std::span<const SettledSeed> settled,
                  const NewtonOptions& options) {
     Walk walk;
@@ -99,10 +105,10 @@ Walk judge_paths(const RecordingSource& source, std::span<const SettledSeed> set
                 continue;
             }
             const Eigen3 eigen = eigen_symmetric(here.jacobian);
-            const bool all = eigen.values[2] > options.third_axis * eigen.values[1];
-            judge(source, seed.path[i], seed.path[i + 1],
-                  std::span(eigen.vectors).first(all ? 3 : 2), walk);
-            walk.bent += eigen.values[all ? 2 : 1] < 0.0 ? 1 : 0;
+            const std::size_t axes = axes_of_step(eigen, options);
+            judge(source, seed.path[i], seed.path[i + 1], std::span(eigen.vectors).first(axes),
+                  walk);
+            walk.bent += eigen.values[axes - 1] < 0.0 ? 1 : 0;
             walk.indefinite += eigen.values[2] < 0.0 ? 1 : 0;
             ++walk.steps;
         }

@@ -25,6 +25,9 @@ constexpr int kTipPieces = 8;           // that each straight of a tip is looked
 constexpr int kLimbPieces = 64;  // that a limb is looked at in, for where it leaves the body,
 constexpr std::size_t kOutsidePlaces = 8;  // and places outside, for how thick it is
 constexpr float kUnfreeCost = 1e3f;        // of connections that could not be laid inside
+// Of the thickest: others are as thick as a place to begin at, and as a place to stay at.
+constexpr float kAsThick = 0.98f;
+constexpr float kAsThickAlone = 0.95f;
 
 struct Arc {
     std::uint32_t to;
@@ -54,18 +57,34 @@ Arcs arcs_of(std::span<const Connection> connections, std::span<const std::uint3
     return arcs;
 }
 
+// Of some clusters the thickest; of several as thick, as a plate has, the one in their middle.
+std::uint32_t thickest_in(std::span<const std::uint32_t> part, float as_thick,
+                          std::span<const float> girths, std::span<const Vec3> centers) {
+    float most = 0.0f;
+    for (const std::uint32_t c : part) most = std::max(most, girths[c]);
+    std::vector<std::uint32_t> thick;
+    DVec3 middle(0.0);
+    for (const std::uint32_t c : part) {
+        if (girths[c] < as_thick * most) continue;
+        thick.push_back(c);
+        middle += DVec3(centers[c]);
+    }
+    middle /= static_cast<double>(thick.size());
+    return *std::ranges::min_element(
+        thick, {}, [&](std::uint32_t c) { return glm::distance(DVec3(centers[c]), middle); });
+}
+
 // The thickest cluster of each part of a network that has no cycle.
-std::vector<bool> thickest_of(const Arcs& arcs, std::span<const float> girths) {
+std::vector<bool> thickest_of(const Arcs& arcs, std::span<const float> girths,
+                              std::span<const Vec3> centers) {
     std::vector<bool> is_thickest(arcs.size(), false);
     std::vector<bool> seen(arcs.size(), false);
     for (std::uint32_t first = 0; first < arcs.size(); ++first) {
         if (seen[first]) continue;
         std::vector<std::uint32_t> part{first};
         seen[first] = true;
-        std::uint32_t thickest = first;
         std::size_t ends = 0;  // of connections
         for (std::size_t i = 0; i < part.size(); ++i) {
-            if (girths[part[i]] > girths[thickest]) thickest = part[i];
             ends += arcs[part[i]].size();
             for (const Arc& arc : arcs[part[i]]) {
                 if (seen[arc.to]) continue;
@@ -73,7 +92,7 @@ std::vector<bool> thickest_of(const Arcs& arcs, std::span<const float> girths) {
                 part.push_back(arc.to);
             }
         }
-        is_thickest[thickest] = ends / 2 < part.size();
+        is_thickest[thickest_in(part, kAsThick, girths, centers)] = ends / 2 < part.size();
     }
     return is_thickest;
 }
@@ -120,6 +139,7 @@ class LimbGrower {
         grow_fat_ends();
         for (std::uint32_t c = 0; c < girths_.size(); ++c)
             out_.home.push_back(way_to_kept(c).back());
+        if (out_.connections.empty() && out_.tips.empty()) move_lone_node();
         return std::move(out_);
     }
 
@@ -153,7 +173,7 @@ class LimbGrower {
     // The cycles of the network, and what joins them; its thickest cluster where there are none.
     void keep_core(std::span<const std::uint32_t> spanning) {
         const Arcs arcs = arcs_of(connections_, spanning, girths_.size());
-        const std::vector<bool> is_core = core_of(arcs, thickest_of(arcs, girths_));
+        const std::vector<bool> is_core = core_of(arcs, thickest_of(arcs, girths_, centers_));
         std::vector<std::uint32_t> core;
         for (std::uint32_t c = 0; c < girths_.size(); ++c) {
             if (is_core[c]) core.push_back(c);
@@ -162,6 +182,15 @@ class LimbGrower {
         for (const std::uint32_t i : spanning) {
             if (is_core[connections_[i].a] && is_core[connections_[i].b]) keep_connection(i);
         }
+    }
+
+    // A plate's one node stands in its middle.
+    void move_lone_node() {
+        const auto is_other = [&](std::uint32_t home) { return home != out_.home.front(); };
+        if (std::ranges::any_of(out_.home, is_other)) return;
+        std::vector<std::uint32_t> all(girths_.size());
+        std::iota(all.begin(), all.end(), 0u);
+        std::ranges::fill(out_.home, thickest_in(all, kAsThickAlone, girths_, centers_));
     }
 
     void keep_connection(std::uint32_t i) {

@@ -20,7 +20,7 @@ struct LimbOptions {
         2.5;                    ///< where no seed came to rest beyond the ball: so many of its own,
     double bare_product = 2.5;  ///< so much by the product,
     double bare_world = 0.12;   ///< or as far as this
-    double flat_girths = 20.0;  ///< where its section is wider than so many girths, it is part of a
+    double flat_girths = 4.5;   ///< where its section is wider than so many girths, it is part of a
     double flat_widths = 2.5;   ///< sheet: as long as so many half widths of it
     double fat_area = 3.0;      ///< a fat end has at least this area, in squares of its own depth,
     double fat_depth = 0.38;    ///< a mean depth of this many of the body's girths,

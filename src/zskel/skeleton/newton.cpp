@@ -108,7 +108,9 @@ class NewtonWalk {
         const Eigen3 eigen = eigen_symmetric(walker.met.jacobian);
         const DVec3 force(walker.met.force);
         const bool use_third = eigen.values[2] > options_.third_axis * eigen.values[1];
-        walker.axis_count = use_third ? 3 : 2;
+        const bool is_sheet =
+            std::abs(eigen.values[1]) < options_.second_axis * eigen.values[0];
+        walker.axis_count = use_third ? 3 : is_sheet ? 1 : 2;
         walker.axes = eigen.vectors;
         const double floor = options_.eigenvalue_floor * eigen.values[0];
         if (!(floor > 0.0)) return DVec3(0.0);

@@ -8,9 +8,11 @@
 namespace zskel {
 
 struct NewtonOptions {
-    int max_steps = 10;       ///< 0: seeds rest where they start
-    double third_axis = 0.5;  ///< moves along the weakest axis only when its eigenvalue is above
-                              ///< this share of the second: along a limb the force says nothing
+    int max_steps = 10;         ///< 0: seeds rest where they start
+    double third_axis = 0.5;    ///< moves along the weakest axis only when its eigenvalue is above
+                                ///< this share of the second: along a limb the force says nothing
+    double second_axis = 0.04;  ///< moves along the second axis only when its eigenvalue is above
+                                ///< this share of the first: nor does it within a sheet
     double eigenvalue_floor = 0.1;  ///< of the largest
     double trust_nearest = 0.8;     ///< longest step, in distances to the nearest surface
     double reversal_damping = 0.6;  ///< each time a step turns back
@@ -20,8 +22,8 @@ struct NewtonOptions {
 
 /// Moves every seed to where the force vanishes across the limb it is in: one jump to the middle of
 /// the chord ahead, then Newton steps on the force with the Jacobian of each record, in its two
-/// strongest axes. A step that raises the force across the limb, or leaves the solid, is halved.
-/// Paths are always kept.
+/// strongest axes, between flat walls in the strongest. A step that raises the force across the
+/// limb, or leaves the solid, is halved. Paths are always kept.
 /// @throws GlError; whatever `progress` throws.
 std::vector<SettledSeed> settle_seeds_newton(VisibilitySource& source, std::span<const Seed> seeds,
                                              const NewtonOptions& options,
