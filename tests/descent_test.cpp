@@ -88,7 +88,7 @@ void judge(const RecordingSource& source, const Vec3& from, const Vec3& to,
 // Along the strongest of the Jacobian's axes a step moves always.
 std::size_t axes_of_step(const Eigen3& eigen, const NewtonOptions& options) {
     if (eigen.values[2] > options.third_axis * eigen.values[1]) return 3;
-    return std::abs(eigen.values[1]) < options.second_axis * eigen.values[0] ? 1 : 2;
+    return std::abs(eigen.values[1]) < options.eigenvalue_floor * eigen.values[0] ? 1 : 2;
 }
 
 // The jump moves along the force.

@@ -108,11 +108,10 @@ class NewtonWalk {
         const Eigen3 eigen = eigen_symmetric(walker.met.jacobian);
         const DVec3 force(walker.met.force);
         const bool use_third = eigen.values[2] > options_.third_axis * eigen.values[1];
-        const bool is_sheet =
-            std::abs(eigen.values[1]) < options_.second_axis * eigen.values[0];
+        const double floor = options_.eigenvalue_floor * eigen.values[0];
+        const bool is_sheet = std::abs(eigen.values[1]) < floor;
         walker.axis_count = use_third ? 3 : is_sheet ? 1 : 2;
         walker.axes = eigen.vectors;
-        const double floor = options_.eigenvalue_floor * eigen.values[0];
         if (!(floor > 0.0)) return DVec3(0.0);
         DVec3 step(0.0);
         for (int k = 0; k < walker.axis_count; ++k) {

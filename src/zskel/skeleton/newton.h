@@ -8,12 +8,11 @@
 namespace zskel {
 
 struct NewtonOptions {
-    int max_steps = 10;         ///< 0: seeds rest where they start
-    double third_axis = 0.5;    ///< moves along the weakest axis only when its eigenvalue is above
-                                ///< this share of the second: along a limb the force says nothing
-    double second_axis = 0.04;  ///< moves along the second axis only when its eigenvalue is above
-                                ///< this share of the first: nor does it within a sheet
-    double eigenvalue_floor = 0.1;  ///< of the largest
+    int max_steps = 10;       ///< 0: seeds rest where they start
+    double third_axis = 0.5;  ///< moves along the weakest axis only when its eigenvalue is above
+                              ///< this share of the second: along a limb the force says nothing
+    double eigenvalue_floor = 0.05;  ///< of the largest; a weaker second axis is not moved along
+                                     ///< either: that is a sheet
     double trust_nearest = 0.8;     ///< longest step, in distances to the nearest surface
     double reversal_damping = 0.6;  ///< each time a step turns back
     double stop_world = 0.0015;     ///< a shorter step is not taken: the seed is at rest
