@@ -13,9 +13,9 @@ struct NewtonOptions {
                               ///< this share of the second: along a limb the force says nothing
     double eigenvalue_floor = 0.05;  ///< of the largest; a weaker second axis is not moved along
                                      ///< either: that is a sheet
-    double trust_nearest = 0.8;     ///< longest step, in distances to the nearest surface
-    double reversal_damping = 0.6;  ///< each time a step turns back
-    double stop_world = 0.0015;     ///< a shorter step is not taken: the seed is at rest
+    double trust_nearest = 0.8;      ///< longest step, in distances to the nearest surface
+    double reversal_damping = 0.6;   ///< each time a step turns back
+    double stop_world = 0.0015;      ///< a shorter step is not taken: the seed is at rest
     double stop_nearest = 0.1;  ///< nor one shorter than this share of the distance to the surface
 };
 
