@@ -251,3 +251,33 @@ TEST_CASE(
 
 }  // namespace
 }  // namespace zskel
+
+TEST_CASE("parse_mesh: more triangles than allowed are refused before they are made") {
+    const auto parse = [](const std::string& text, MeshFormat format, std::size_t max_faces) {
+        return parse_mesh(std::as_bytes(std::span(text)), format, "model",
+                          {.max_faces = max_faces});
+    };
+    const std::string two = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nf 1 2 3 4\nf 1 2 3\n";
+    CHECK(parse(two, MeshFormat::Obj, 3).triangles.size() == 3);
+    CHECK_THROWS_WITH_AS(
+        parse(two, MeshFormat::Obj, 2),
+        "model: face 2 makes it 3 triangles, more than the 2 that --max-faces allows", LimitError);
+
+    std::string round = "v 0 0 0\nv 1 0 0\nv 1 1 0\nf";
+    for (int corner = 0; corner < 100'000; ++corner) round += " 1 2 3";
+    CHECK_THROWS_AS(parse(round, MeshFormat::Obj, 1000), LimitError);
+
+    const std::string off = "OFF\n4 1 0\n0 0 0\n1 0 0\n1 1 0\n0 1 0\n4 0 1 2 3\n";
+    CHECK_THROWS_AS(parse(off, MeshFormat::Off, 1), LimitError);
+    const std::string stl =
+        "solid a\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 0 0\nvertex 0 1 0\n"
+        "endloop\nendfacet\nfacet normal 0 0 1\nouter loop\nvertex 1 1 0\nvertex 1 0 0\n"
+        "vertex 0 1 0\nendloop\nendfacet\nendsolid a\n";
+    CHECK(parse(stl, MeshFormat::Stl, 2).triangles.size() == 2);
+    CHECK_THROWS_AS(parse(stl, MeshFormat::Stl, 1), LimitError);
+    const std::string ply =
+        "ply\nformat ascii 1.0\nelement vertex 4\nproperty float x\nproperty float y\n"
+        "property float z\nelement face 1\nproperty list uchar int vertex_indices\nend_header\n"
+        "0 0 0\n1 0 0\n1 1 0\n0 1 0\n4 0 1 2 3\n";
+    CHECK_THROWS_AS(parse(ply, MeshFormat::Ply, 1), LimitError);
+}

@@ -23,21 +23,27 @@ void MeshBuilder::warn(std::size_t count, std::string_view what) {
     if (count > 0) warnings.push_back(fmt::format("{} {}", count, what));
 }
 
+void MeshBuilder::fail_too_many() const {
+    throw LimitError(
+        fmt::format("{}: face {} makes it {} triangles, more than the {} that "
+                    "--max-faces allows",
+                    name_, sizes_.size() + 1, triangles_, max_faces_));
+}
+
 Mesh MeshBuilder::finish() {
     if (sizes_.empty()) {
         throw InputError(
             fmt::format("{}: the model has no faces ({} vertices); expected at least one", name_,
                         positions.size()));
     }
-    const std::size_t triangle_count = corners_.size() - 2 * sizes_.size();
-    if (triangle_count >= kNone || positions.size() >= kNone) {
+    if (triangles_ >= kNone || positions.size() >= kNone) {
         throw InputError(
             fmt::format("{}: {} triangles on {} vertices; at most {} of each can be numbered",
-                        name_, triangle_count, positions.size(), kNone - 1));
+                        name_, triangles_, positions.size(), kNone - 1));
     }
     Mesh mesh;
-    mesh.triangles.reserve(triangle_count);
-    mesh.face_of_triangle.reserve(triangle_count);
+    mesh.triangles.reserve(triangles_);
+    mesh.face_of_triangle.reserve(triangles_);
     std::size_t begin = 0;
     std::size_t fans = 0;
     std::size_t looks_left = kLooks + kLooksPerCorner * corners_.size();

@@ -294,8 +294,8 @@ PatchGroup superquadric_patches(const Superquadric& superquadric) {
     return out;
 }
 
-Mesh tessellate(const std::vector<PatchGroup>& groups, double chord_error,
-                const std::string& name) {
+Mesh tessellate(const std::vector<PatchGroup>& groups, double chord_error, const std::string& name,
+                std::size_t max_faces) {
     Box box;
     for (const PatchGroup& group : groups) {
         const std::vector<PatchGrid> coarse = grids_of(group, kLeastSteps);
@@ -308,7 +308,7 @@ Mesh tessellate(const std::vector<PatchGroup>& groups, double chord_error,
         throw InputError(fmt::format("{}: the patches reach too far to be measured", name));
     Snapper snapper(box.low,
                     std::max(kSamePlace * box.diagonal(), std::numeric_limits<double>::min()));
-    MeshBuilder builder(name);
+    MeshBuilder builder(name, max_faces);
     for (const PatchGroup& group : groups) {
         for (const PatchGrid& grid : fitting_grids(group, chord_error * box.diagonal(), name)) {
             std::vector<std::uint32_t> vertices;

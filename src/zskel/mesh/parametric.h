@@ -49,8 +49,10 @@ PatchGroup superquadric_patches(const Superquadric& superquadric);
 /// diagonal become one, and what has no area then is left out.
 /// @param chord_error  in diagonals of the bounding box, above 0.
 /// @param name         stands in messages.
-/// @throws InputError when a group asks for more than 512 steps along a patch, or 16 million
-/// triangles, or a place is not finite.
-Mesh tessellate(const std::vector<PatchGroup>& groups, double chord_error, const std::string& name);
+/// @param max_faces    triangles; 0: as many as can be numbered.
+/// @throws LimitError for more than `max_faces`. InputError when a group asks for more than 512
+/// steps along a patch, or 16 million triangles, or a place is not finite.
+Mesh tessellate(const std::vector<PatchGroup>& groups, double chord_error, const std::string& name,
+                std::size_t max_faces = 0);
 
 }  // namespace zskel

@@ -33,7 +33,7 @@ DVec3 read_point(TextCursor& text) {
 
 }  // namespace
 
-Mesh read_bpt(std::string_view bytes, std::string_view name, double chord_error) {
+Mesh read_bpt(std::string_view bytes, std::string_view name, const ReadOptions& options) {
     TextCursor text(bytes, name, {.hash_comments = true, .joined_lines = false});
     const auto most = static_cast<std::int64_t>(bytes.size() / (4 * kShortestPoint) + 1);
     const std::int64_t patches = read_count(text, "the number of patches", 1, most);
@@ -52,7 +52,7 @@ Mesh read_bpt(std::string_view bytes, std::string_view name, double chord_error)
         text.fail(fmt::format("{} after the last of {} patches; expected the end of the file",
                               quoted(text.word()), patches));
     }
-    return tessellate({group}, chord_error, std::string(name));
+    return tessellate({group}, options.chord_error, std::string(name), options.max_faces);
 }
 
 }  // namespace zskel

@@ -88,27 +88,23 @@ Mesh parse_mesh(std::span<const std::byte> bytes, MeshFormat format, const std::
     Mesh mesh;
     switch (format) {
         case MeshFormat::Obj:
-            mesh = read_obj(text, name);
+            mesh = read_obj(text, name, options);
             break;
         case MeshFormat::Off:
-            mesh = read_off(text, name);
+            mesh = read_off(text, name, options);
             break;
         case MeshFormat::Ply:
-            mesh = read_ply(text, name);
+            mesh = read_ply(text, name, options);
             break;
         case MeshFormat::Stl:
-            mesh = read_stl(text, name);
+            mesh = read_stl(text, name, options);
             break;
         case MeshFormat::Bpt:
-            mesh = read_bpt(text, name, options.chord_error);
+            mesh = read_bpt(text, name, options);
             break;
         case MeshFormat::SurfaceJson:
-            mesh = read_surfaces(text, name, options.chord_error);
+            mesh = read_surfaces(text, name, options);
             break;
-    }
-    if (options.max_faces > 0 && mesh.triangles.size() > options.max_faces) {
-        throw LimitError(fmt::format("{}: {} triangles, more than the {} that --max-faces allows",
-                                     name, mesh.triangles.size(), options.max_faces));
     }
     mesh.hash = XXH3_64bits(bytes.data(), bytes.size());
     return mesh;

@@ -37,10 +37,10 @@ struct Numbering {
 
 class ObjReader {
   public:
-    ObjReader(std::string_view bytes, std::string_view name)
+    ObjReader(std::string_view bytes, std::string_view name, const ReadOptions& options)
         : text_(bytes, name, {.hash_comments = true, .joined_lines = true}),
           name_(name),
-          builder_(name) {}
+          builder_(name, options.max_faces) {}
 
     Mesh read() {
         while (text_.to_content()) read_statement();
@@ -157,8 +157,8 @@ class ObjReader {
 
 }  // namespace
 
-Mesh read_obj(std::string_view bytes, std::string_view name) {
-    return ObjReader(bytes, name).read();
+Mesh read_obj(std::string_view bytes, std::string_view name, const ReadOptions& options) {
+    return ObjReader(bytes, name, options).read();
 }
 
 }  // namespace zskel

@@ -26,8 +26,8 @@ struct OffHeader {
 
 class OffReader {
   public:
-    OffReader(std::string_view bytes, std::string_view name)
-        : text_(bytes, name, {.hash_comments = true}), builder_(name) {}
+    OffReader(std::string_view bytes, std::string_view name, const ReadOptions& options)
+        : text_(bytes, name, {.hash_comments = true}), builder_(name, options.max_faces) {}
 
     Mesh read() {
         read_header();
@@ -171,8 +171,8 @@ class OffReader {
 
 }  // namespace
 
-Mesh read_off(std::string_view bytes, std::string_view name) {
-    return OffReader(bytes, name).read();
+Mesh read_off(std::string_view bytes, std::string_view name, const ReadOptions& options) {
+    return OffReader(bytes, name, options).read();
 }
 
 }  // namespace zskel

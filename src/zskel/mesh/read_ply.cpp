@@ -129,8 +129,9 @@ bool is_index_list(const PlyProperty& property) {
 template <typename Values>
 class PlyBody {
   public:
-    PlyBody(Values values, const PlyHeader& header, std::string_view name)
-        : values_(values), header_(header), builder_(name) {}
+    PlyBody(Values values, const PlyHeader& header, std::string_view name,
+            const ReadOptions& options)
+        : values_(values), header_(header), builder_(name, options.max_faces) {}
 
     Mesh read() {
         check_elements();
@@ -293,16 +294,16 @@ class PlyBody {
 
 }  // namespace
 
-Mesh read_ply(std::string_view bytes, std::string_view name) {
+Mesh read_ply(std::string_view bytes, std::string_view name, const ReadOptions& options) {
     TextCursor text(bytes, name);
     const PlyHeader header = read_ply_header(text, bytes);
     if (header.encoding == PlyEncoding::Ascii) {
-        return PlyBody(AsciiValues(text), header, name).read();
+        return PlyBody(AsciiValues(text), header, name, options).read();
     }
     const std::endian order =
         header.encoding == PlyEncoding::BinaryBig ? std::endian::big : std::endian::little;
     const ByteCursor data(bytes, header.data_begin, order, name);
-    return PlyBody(BinaryValues(data), header, name).read();
+    return PlyBody(BinaryValues(data), header, name, options).read();
 }
 
 }  // namespace zskel

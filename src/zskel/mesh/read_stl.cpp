@@ -37,8 +37,10 @@ bool equals_in_any_case(std::string_view word, std::string_view lower) {
 
 class AsciiStlReader {
   public:
-    AsciiStlReader(std::string_view bytes, std::string_view name)
-        : text_(bytes, name), builder_(name), places_(bytes.size() / kShortestAsciiFacet / 2) {}
+    AsciiStlReader(std::string_view bytes, std::string_view name, const ReadOptions& options)
+        : text_(bytes, name),
+          builder_(name, options.max_faces),
+          places_(bytes.size() / kShortestAsciiFacet / 2) {}
 
     Mesh read() {
         do {
@@ -117,7 +119,7 @@ DVec3 read_binary_vertex(ByteCursor& data) {
     return position;
 }
 
-Mesh read_binary(std::string_view bytes, std::string_view name) {
+Mesh read_binary(std::string_view bytes, std::string_view name, const ReadOptions& options) {
     ByteCursor data(bytes, kHeaderBytes, std::endian::little, name);
     const auto facets = data.read<std::uint32_t>("the number of facets");
     if (size_for(facets) != bytes.size()) {
@@ -125,7 +127,7 @@ Mesh read_binary(std::string_view bytes, std::string_view name) {
                                              "this one has {}",
                                              facets, size_for(facets), bytes.size()));
     }
-    MeshBuilder builder(name);
+    MeshBuilder builder(name, options.max_faces);
     builder.reserve_faces(facets);
     PlaceIndex places(facets / 2 + 2);  // a closed surface has half as many vertices as triangles
     for (std::uint32_t facet = 0; facet < facets; ++facet) {
@@ -154,9 +156,10 @@ bool is_binary_stl(std::string_view bytes) {
     return size_for(data.read<std::uint32_t>("the number of facets")) == bytes.size();
 }
 
-Mesh read_stl(std::string_view bytes, std::string_view name) {
-    if (!is_binary_stl(bytes) && begins_as_ascii(bytes)) return AsciiStlReader(bytes, name).read();
-    if (bytes.size() >= kHeaderBytes) return read_binary(bytes, name);
+Mesh read_stl(std::string_view bytes, std::string_view name, const ReadOptions& options) {
+    if (!is_binary_stl(bytes) && begins_as_ascii(bytes))
+        return AsciiStlReader(bytes, name, options).read();
+    if (bytes.size() >= kHeaderBytes) return read_binary(bytes, name, options);
     throw InputError(
         fmt::format("{}: {} bytes that begin with {}; expected 'solid' (ascii STL) or {} "
                     "bytes and more (binary)",

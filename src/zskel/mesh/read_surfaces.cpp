@@ -135,13 +135,13 @@ PatchGroup read_surface(const JsonPlace& entry) {
 
 }  // namespace
 
-Mesh read_surfaces(std::string_view bytes, std::string_view name, double chord_error) {
+Mesh read_surfaces(std::string_view bytes, std::string_view name, const ReadOptions& options) {
     const nlohmann::json data = parse_json(bytes, std::string(name));
     const JsonPlace surfaces = JsonPlace(data, std::string(name)).at("surfaces");
     std::vector<PatchGroup> groups;
     for (std::size_t i = 0; i < surfaces.array_size(); ++i)
         groups.push_back(read_surface(surfaces.at(i)));
-    return tessellate(groups, chord_error, std::string(name));
+    return tessellate(groups, options.chord_error, std::string(name), options.max_faces);
 }
 
 }  // namespace zskel
