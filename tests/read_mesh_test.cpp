@@ -250,7 +250,6 @@ TEST_CASE(
 }
 
 }  // namespace
-}  // namespace zskel
 
 TEST_CASE("parse_mesh: more triangles than allowed are refused before they are made") {
     const auto parse = [](const std::string& text, MeshFormat format, std::size_t max_faces) {
@@ -281,3 +280,5 @@ TEST_CASE("parse_mesh: more triangles than allowed are refused before they are m
         "0 0 0\n1 0 0\n1 1 0\n0 1 0\n4 0 1 2 3\n";
     CHECK_THROWS_AS(parse(ply, MeshFormat::Ply, 1), LimitError);
 }
+
+}  // namespace zskel
