@@ -87,8 +87,8 @@ void judge(const RecordingSource& source, const Vec3& from, const Vec3& to,
 
 // Along the strongest of the Jacobian's axes a step moves always.
 std::size_t axes_of_step(const Eigen3& eigen, const NewtonOptions& options) {
-    if (eigen.values[2] > options.third_axis * eigen.values[1]) return 3;
-    return std::abs(eigen.values[1]) < options.eigenvalue_floor * eigen.values[0] ? 1 : 2;
+    if (std::abs(eigen.values[1]) < options.eigenvalue_floor * eigen.values[0]) return 1;
+    return eigen.values[2] > options.third_axis * eigen.values[1] ? 3 : 2;
 }
 
 // The jump moves along the force.
@@ -140,6 +140,29 @@ TEST_CASE("settle_seeds_newton: every step on a horse goes with the force and le
     const Walk walk = judge_walk(*rays, seeds);
     CHECK(walk.jumps == seeds.size());
     CHECK(walk.steps > seeds.size());
+}
+
+TEST_CASE("settle_seeds_newton: within a sheet a seed goes to its middle, and stays there") {
+    Mesh plate = test::cube();
+    for (int i = 0; i < 4; ++i) plate = test::subdivided(plate, [](const DVec3& p) { return p; });
+    for (DVec3& p : plate.positions) p.z *= 0.05;
+    const PreparedSurface prepared = prepare_surface(plate);
+    const Vec3 middle = prepared.surface.world_from_model.to_world(DVec3(0.0));
+    const auto half = static_cast<float>(0.5 * prepared.surface.world_from_model.scale);
+    const auto rays = make_ray_source(prepared.surface, cube_directions(16));
+    const auto seeds = test::some_seeds(prepared.surface, 1);
+    const auto settled = settle_seeds_newton(*rays, seeds, {});
+    std::size_t inner = 0;
+    for (std::size_t i = 0; i < seeds.size(); ++i) {
+        const Vec3 start = (seeds[i].position - middle) / half;
+        const Vec3 end = (settled[i].position - middle) / half;
+        if (std::max(std::abs(start.x), std::abs(start.y)) > 0.7f) continue;
+        CHECK(settled[i].state == SeedState::Converged);
+        CHECK(std::abs(end.z) < 0.005f);
+        CHECK(std::hypot(end.x - start.x, end.y - start.y) < 0.05f);
+        ++inner;
+    }
+    CHECK(inner > 100);
 }
 
 TEST_CASE("settle_seeds_newton: so does every step on a force whose Jacobian misleads") {

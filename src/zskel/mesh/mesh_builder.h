@@ -6,6 +6,7 @@
 #include <string_view>
 #include <vector>
 
+#include "zskel/core/assert.h"
 #include "zskel/mesh/mesh.h"
 
 namespace zskel {
@@ -23,8 +24,10 @@ class MeshBuilder {
 
     std::size_t face_count() const { return sizes_.size(); }
     void reserve_faces(std::size_t faces);
+    /// @param corners  three or more.
     /// @throws LimitError as soon as there are too many.
     void add_face(std::span<const std::uint32_t> corners) {
+        ZSKEL_ASSERT(corners.size() >= 3, "a face has an area");
         triangles_ += corners.size() - 2;
         if (max_faces_ > 0 && triangles_ > max_faces_) fail_too_many();
         corners_.insert(corners_.end(), corners.begin(), corners.end());

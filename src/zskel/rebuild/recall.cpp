@@ -203,8 +203,8 @@ std::optional<RecallMap::Crease> RecallMap::crease_in(const Texel& first,
     // Planes that pass one another's texels on both sides do not meet here, nor do those that pass
     // them by as much as depths of two surfaces differ: such a plane was fitted across a jump.
     const bool is_crossed = std::min(below, above) > 0.5f * kCreaseShare;
-    const float passed = std::max(below, above);
-    if (passed < kCreaseShare || passed > kMostDepthRatio - 1.0f || is_crossed) return std::nullopt;
+    const bool is_jump = above > kMostDepthRatio - 1.0f || below > 1.0f - 1.0f / kMostDepthRatio;
+    if (std::max(below, above) < kCreaseShare || is_crossed || is_jump) return std::nullopt;
     crease.is_convex = below > above;
     return crease;
 }

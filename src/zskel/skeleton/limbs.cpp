@@ -25,7 +25,8 @@ constexpr int kTipPieces = 8;           // that each straight of a tip is looked
 constexpr int kLimbPieces = 64;  // that a limb is looked at in, for where it leaves the body,
 constexpr std::size_t kOutsidePlaces = 8;  // and places outside, for how thick it is
 constexpr float kUnfreeCost = 1e3f;        // of connections that could not be laid inside
-// Of the thickest: others are as thick as a place to begin at, and as a place to stay at.
+// Of the thickest cluster: those that count as thick as it where limbs begin to grow, and where
+// none has grown.
 constexpr float kAsThick = 0.98f;
 constexpr float kAsThickAlone = 0.95f;
 

@@ -110,7 +110,7 @@ class NewtonWalk {
         const bool use_third = eigen.values[2] > options_.third_axis * eigen.values[1];
         const double floor = options_.eigenvalue_floor * eigen.values[0];
         const bool is_sheet = std::abs(eigen.values[1]) < floor;
-        walker.axis_count = use_third ? 3 : is_sheet ? 1 : 2;
+        walker.axis_count = is_sheet ? 1 : use_third ? 3 : 2;
         walker.axes = eigen.vectors;
         if (!(floor > 0.0)) return DVec3(0.0);
         DVec3 step(0.0);

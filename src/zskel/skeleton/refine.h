@@ -41,9 +41,9 @@ struct RefineReport {
     std::size_t zipped_branches = 0;    ///< see `zip_branches`
 };
 
-/// Merges junctions, extends ends to the tips, centres and smooths the branches, makes one of those
-/// that go side by side, and sends ends straight on.
-/// No segment that was free is left unfree, and cycles stay.
+/// Merges junctions, unfolds what goes out and back, extends ends to the tips, centres and smooths
+/// the branches, makes one of those that go side by side, and sends ends straight on. No segment
+/// that was free is left unfree, and cycles stay.
 /// @param seed_points  where every seed's vertex is on the surface.
 RefineReport refine_graph(CurveGraph& graph, std::span<const Vec3> seed_points,
                           const SurfaceQuery& query, const RefineOptions& options);
