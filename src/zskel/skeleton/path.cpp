@@ -11,13 +11,17 @@ float length_of(std::span<const Vec3> path) {
     return sum;
 }
 
+Vec3 nearest_on_segment(const Vec3& a, const Vec3& b, const Vec3& point) {
+    const Vec3 way = b - a;
+    const float length2 = glm::dot(way, way);
+    const float share = length2 > 0.0f ? glm::dot(point - a, way) / length2 : 0.0f;
+    return a + way * std::clamp(share, 0.0f, 1.0f);
+}
+
 float distance_to(std::span<const Vec3> path, const Vec3& point) {
     float least = kInfinity;
     for (std::size_t i = 1; i < path.size(); ++i) {
-        const Vec3 way = path[i] - path[i - 1];
-        const float length2 = glm::dot(way, way);
-        const float share = length2 > 0.0f ? glm::dot(point - path[i - 1], way) / length2 : 0.0f;
-        const Vec3 nearest = path[i - 1] + way * std::clamp(share, 0.0f, 1.0f);
+        const Vec3 nearest = nearest_on_segment(path[i - 1], path[i], point);
         least = std::min(least, glm::distance(point, nearest));
     }
     return least;

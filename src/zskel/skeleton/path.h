@@ -11,6 +11,9 @@ namespace zskel {
 /// Length of a chain of points.
 float length_of(std::span<const Vec3> path);
 
+/// The point of a segment that is nearest to another one.
+Vec3 nearest_on_segment(const Vec3& a, const Vec3& b, const Vec3& point);
+
 /// From a point to the nearest point of a chain of points; infinite when that has no segment.
 float distance_to(std::span<const Vec3> path, const Vec3& point);
 

@@ -152,10 +152,7 @@ class Unfolder {
         std::optional<Joint> best;
         float least = kInfinity;
         for (std::size_t i = 0; i < end; ++i) {
-            const Vec3& a = graph_.at(stays[i]);
-            const Vec3 ab = graph_.at(stays[i + 1]) - a;
-            const float share = glm::dot(p - a, ab) / std::max(glm::dot(ab, ab), 1e-30f);
-            const Vec3 foot = a + std::clamp(share, 0.0f, 1.0f) * ab;
+            const Vec3 foot = nearest_on_segment(graph_.at(stays[i]), graph_.at(stays[i + 1]), p);
             const float distance = glm::distance(foot, p);
             if (distance >= least) continue;
             least = distance;
