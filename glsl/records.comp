@@ -54,6 +54,7 @@ layout(std430, binding = 7) writeonly buffer Records { Record records[]; };
 
 uniform int face_px;
 uniform uint groups;
+uniform uint first_eye;  // of this dispatch
 uniform uint patience;  // iterations of the last loop, which a driver that cuts loops short cannot reach
 uniform float near_plane;
 uniform float ahead_cosine;
@@ -74,7 +75,7 @@ shared uint ahead_bits;
 shared uint is_cut_short;
 
 uint thread = gl_LocalInvocationIndex;
-vec3 eye = eyes[gl_WorkGroupID.x].xyz;
+vec3 eye = eyes[first_eye + gl_WorkGroupID.x].xyz;
 
 float center(int i) { return (2.0 * float(i) + 1.0) / float(face_px) - 1.0; }
 uint texel_index(int face, int row, int column) { return uint((face * face_px + row) * face_px + column); }
@@ -428,5 +429,5 @@ void main() {
     if (strength > 0.0) atomicMax(ahead_bits, floatBitsToUint(look_ahead(force / strength)));
     barrier();
     record.clearance = ahead_bits > 0u ? 1.0 / uintBitsToFloat(ahead_bits) : kInfinity;
-    if (thread == 0u) records[gl_WorkGroupID.x] = record;
+    if (thread == 0u) records[first_eye + gl_WorkGroupID.x] = record;
 }

@@ -6,7 +6,7 @@
 namespace zskel::batch {
 namespace {
 
-constexpr std::size_t kFields = 5;
+constexpr std::size_t kFields = 6;
 
 // The third field.
 constexpr const char* kUnknown = "unknown";
@@ -22,7 +22,8 @@ std::string to_message(const Request& request) {
     std::string message;
     for (const std::string& field : {request.model, request.output, std::string(known),
                                      request.known ? request.known->key : std::string(),
-                                     std::string(request.wants_thumbnail ? "thumbnail" : "")}) {
+                                     std::string(request.wants_thumbnail ? "thumbnail" : ""),
+                                     std::string(request.is_alone ? "alone" : "")}) {
         message += field;
         message += '\0';
     }
@@ -44,6 +45,7 @@ std::optional<Request> take_request(std::string& bytes) {
     request.output = fields[1];
     if (fields[2] != kUnknown) request.known = {fields[3], fields[2] == kFailed};
     request.wants_thumbnail = !fields[4].empty();
+    request.is_alone = !fields[5].empty();
     return request;
 }
 

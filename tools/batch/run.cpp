@@ -31,6 +31,7 @@ class BatchRun {
         while (signals_.first() == 0 && (next_ < items_.size() || pool_.busy() > 0)) {
             while (next_ < items_.size() && pool_.has_idle()) give_next();
             take(pool_.wait(kGlance, signals_.wake_fd()));
+            if (options_.gpu != nullptr) options_.gpu->tend();
             progress_.show(tally_);
         }
         if (signals_.first() != 0) wind_down();
@@ -57,6 +58,8 @@ class BatchRun {
         for (const Record& record : records) {
             tally_.add(record, journal_.find(record.output));
             if (record.status != Status::Skipped) journal_.append(record);
+            // It may be the GPU that hangs, and with it all who use it.
+            if (options_.gpu != nullptr && record.reason == "timeout") options_.gpu->replace();
         }
     }
 

@@ -4,6 +4,7 @@
 #include <functional>
 #include <vector>
 
+#include "batch/gpu_process.h"
 #include "batch/item.h"
 #include "batch/journal.h"
 #include "batch/tally.h"
@@ -16,6 +17,7 @@ struct RunOptions {
     bool retry = false;          ///< what failed before is tried again
     std::size_t thumbnails = 0;  ///< of the first so many items
     bool shows_progress = false;
+    GpuProcess* gpu = nullptr;  ///< that workers share, if they do
 };
 
 struct RunResult {

@@ -49,10 +49,10 @@ void send_all(int socket, std::string_view bytes) {
 
 }  // namespace
 
-void serve(int socket, const Task& task, double memory_mb) {
+void serve(int socket, const Task& task, const std::string& gpu_address, double memory_mb) {
     ::prctl(PR_SET_NAME, "zskel-worker");
     set_memory_bounds(memory_mb);
-    SkeletonMaker maker(task);
+    SkeletonMaker maker(task, gpu_address);
     const auto begun = [socket](const Record& record) { send_all(socket, begun_line(record)); };
     std::string bytes;
     while (receive(socket, bytes)) {

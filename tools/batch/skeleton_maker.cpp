@@ -9,13 +9,14 @@
 
 #include "batch/item_key.h"
 #include "batch/peak_memory.h"
+#include "batch/shared_gpu.h"
 #include "scoring/base64.h"
 #include "zskel/core/input_file.h"
+#include "zskel/core/log.h"
 #include "zskel/core/parallel.h"
 #include "zskel/io/output_file.h"
 #include "zskel/io/picture.h"
 #include "zskel/io/skeleton_json.h"
-#include "zskel/visibility/choose.h"
 
 namespace zskel::batch {
 namespace {
@@ -70,7 +71,8 @@ void keep_warnings(const std::vector<std::string>& warnings, Record& record) {
 
 }  // namespace
 
-SkeletonMaker::SkeletonMaker(Task task) : task_(std::move(task)) {}
+SkeletonMaker::SkeletonMaker(Task task, std::string gpu_address)
+    : task_(std::move(task)), gpu_address_(std::move(gpu_address)) {}
 SkeletonMaker::~SkeletonMaker() = default;
 
 Record SkeletonMaker::make(const Request& request,
@@ -106,6 +108,7 @@ void SkeletonMaker::fail(const Error& error, Record& record) {
 
 void SkeletonMaker::work(const Request& request, const std::function<void(const Record&)>& begun,
                          Record& record) {
+    if (std::exchange(is_alone_, request.is_alone) != request.is_alone) backends_ = {};
     const SkeletonFormat format =
         task_.format ? *task_.format : skeleton_format_of_path(request.output);
     record.backend = resolved_backend(request.model);
@@ -134,13 +137,26 @@ void SkeletonMaker::work(const Request& request, const std::function<void(const 
 }
 
 Backend& SkeletonMaker::backend_for(const BackendOptions& options) {
-    const bool may_be_gpu = options.kind == BackendKind::Auto && options.gpu < 0;
-    const bool is_gpu =
-        may_be_gpu &&
-        choose_source(options.work, options.face_px, thread_count(), has_gpu_device()).is_gpu;
-    std::unique_ptr<Backend>& backend = backends_[is_gpu ? 1 : 0];
-    if (!backend) backend = open_backend(options);
+    Choice choice{uses_gl(options), ""};
+    if (options.kind == BackendKind::Auto && !choice.is_gpu) {
+        choice = choose_source(options.work, options.face_px, thread_count(), has_gpu_device());
+    }
+    std::unique_ptr<Backend>& backend = backends_[choice.is_gpu ? 1 : 0];
+    if (!backend) backend = open(options, choice);
     return *backend;
+}
+
+// Should the process that all share not answer, a context of one's own.
+std::unique_ptr<Backend> SkeletonMaker::open(const BackendOptions& options,
+                                             const Choice& choice) const {
+    if (choice.is_gpu && !is_alone_ && !gpu_address_.empty()) {
+        try {
+            return open_shared_gpu(gpu_address_, options.face_px, choice.reason);
+        } catch (const GlError& error) {
+            log_warning("{}", error.what());
+        }
+    }
+    return open_backend(options);
 }
 
 // Where Auto weighs how much there is to do, the model has to be read to know.

@@ -11,6 +11,7 @@
 #include "zskel/extract.h"
 #include "zskel/io/skeleton_formats.h"
 #include "zskel/mesh/read_mesh.h"
+#include "zskel/visibility/choose.h"
 
 namespace zskel::batch {
 
@@ -25,11 +26,12 @@ struct Task {
     std::string command;  ///< as typed
 };
 
-/// Makes one skeleton after the other and keeps what they share open: the backend's GL context, its
-/// programs and buffers, and the context for thumbnails.
+/// Makes one skeleton after the other and keeps what they share open: the backend, its GL context
+/// or its connection to the process that has one, and the context for thumbnails.
 class SkeletonMaker {
   public:
-    explicit SkeletonMaker(Task task);
+    /// @param gpu_address  of the process that does the GL work of a batch; empty: this one does.
+    SkeletonMaker(Task task, std::string gpu_address);
     ~SkeletonMaker();
 
     /// Does the item, unless what is known of it still holds. Nothing is thrown: a failure is in
@@ -45,8 +47,12 @@ class SkeletonMaker {
     void add_thumbnail(const ExtractResult& result, Record& record);
     void fail(const Error& error, Record& record);
 
+    std::unique_ptr<Backend> open(const BackendOptions& options, const Choice& choice) const;
+
     Task task_;
-    std::array<std::unique_ptr<Backend>, 2> backends_;  // Auto may take either
+    std::string gpu_address_;
+    bool is_alone_ = false;  // the item at hand leaves that process alone
+    std::array<std::unique_ptr<Backend>, 2> backends_;  // by GL: the second
     std::unique_ptr<gl::Context> picture_context_;
     std::string no_picture_;
 };

@@ -21,7 +21,8 @@ class Worker;
 /// Processes that do one item after the other, each started when it is first needed. One that
 /// crashes, takes too long or runs out of memory costs the item that it had, and another takes its
 /// place. An item for which a used worker has no memory left, or whose worker was killed by SIGKILL
-/// from outside, is tried once more by a fresh one.
+/// from outside, is tried once more by a fresh one; and one whose backend failed is tried once more
+/// alone.
 ///
 /// A worker gets requests (request.h) on its socket and answers each with `BEGUN key backend`,
 /// perhaps, and the record: lines both.

@@ -1,9 +1,7 @@
-// Linux: the death of the parent is told by PR_SET_PDEATHSIG.
 #include "batch/worker_process.h"
 
 #include <fcntl.h>
 #include <fmt/format.h>
-#include <sys/prctl.h>
 #include <sys/socket.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -11,11 +9,11 @@
 #include <array>
 #include <cerrno>
 #include <csignal>
-#include <cstdio>
 #include <cstring>
 #include <string_view>
 #include <utility>
 
+#include "batch/child_process.h"
 #include "batch/stale_files.h"
 #include "zskel/core/error.h"
 
@@ -24,17 +22,6 @@ namespace {
 
 constexpr std::string_view kBegun = "BEGUN ";
 constexpr int kMostStarts = 3;
-
-// In the new process. It dies with its parent, which may have died before it asked for that. What a
-// terminal or a cluster sends to all processes of a group is the parent's to act on.
-void bind_to_parent(pid_t parent) {
-    sigset_t stops;
-    sigemptyset(&stops);
-    for (const int signal : {SIGINT, SIGTERM, SIGHUP}) sigaddset(&stops, signal);
-    ::sigprocmask(SIG_BLOCK, &stops, nullptr);
-    ::prctl(PR_SET_PDEATHSIG, SIGKILL);
-    if (::getppid() != parent) ::_exit(1);
-}
 
 std::string signal_text(int signal) {
     if (signal == SIGKILL)
@@ -53,21 +40,16 @@ void Worker::start() {
     if (::socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, ends.data()) != 0) {
         throw Error(ExitCode::Internal, fmt::format("no socket pair: {}", std::strerror(errno)));
     }
-    std::fflush(nullptr);
-    const pid_t parent = ::getpid();
-    pid_ = ::fork();
-    if (pid_ == 0) {
-        bind_to_parent(parent);
-        ::close(ends[0]);
-        launch_(ends[1]);
-        ::_exit(1);
+    try {
+        pid_ = start_child([&] {
+            ::close(ends[0]);
+            launch_(ends[1]);
+        });
+    } catch (const Error&) {
+        for (const int end : ends) ::close(end);
+        throw;
     }
     ::close(ends[1]);
-    if (pid_ < 0) {
-        const int error = errno;
-        ::close(ends[0]);
-        throw Error(ExitCode::Internal, fmt::format("no new process: {}", std::strerror(error)));
-    }
     socket_ = ends[0];
     ::fcntl(socket_, F_SETFL, O_NONBLOCK);
     received_.clear();
@@ -135,12 +117,12 @@ std::optional<Record> Worker::take_record() {
     return std::nullopt;
 }
 
-// The heap of a process that has done other items may be in pieces, or its GL context lost; and
-// SIGKILL is no doing of a model's, unless the system had to make room.
+// The heap of a process that has done other items may be in pieces; a GL context may be lost by
+// what others did with it; and SIGKILL is no doing of a model's, unless the system had to make
+// room.
 bool Worker::deserves_second_try(const Record& record) const {
     if (is_second_try_) return false;
-    const bool may_be_worn = record.reason == "memory" || record.reason == "no_backend";
-    return (may_be_worn && items_done_ > 1) ||
+    return (record.reason == "memory" && items_done_ > 1) || record.reason == "no_backend" ||
            (record.reason == "crashed" && record.exit_code == 128 + SIGKILL);
 }
 
@@ -150,7 +132,7 @@ std::optional<Record> Worker::receive() {
         if (!is_open) stop();
         return std::nullopt;
     }
-    const Request request = *request_;
+    Request request = *request_;
     std::optional<Record> record = take_record();
     if (!record && !is_open) record = crashed();
     if (!record) return std::nullopt;
@@ -163,6 +145,7 @@ std::optional<Record> Worker::receive() {
     if (!is_open || record->reason == "memory") stop();
     if (!again) return record;
     is_second_try_ = true;
+    request.is_alone = true;
     hand(request);
     return std::nullopt;
 }
@@ -179,7 +162,7 @@ Record Worker::ended(const std::string& reason, int exit_code, std::string text)
 
 Record Worker::crashed() {
     ::kill(pid_, SIGKILL);  // should it have closed its socket and gone on
-    const int status = reap();
+    const int status = reap(pid_);
     remove_stale_file(request_->output, pid_);
     pid_ = -1;
     if (WIFSIGNALED(status)) {
@@ -199,19 +182,12 @@ Record Worker::time_out(double seconds) {
     return record;
 }
 
-int Worker::reap() {
-    int status = 0;
-    while (::waitpid(pid_, &status, 0) < 0 && errno == EINTR) {
-    }
-    return status;
-}
-
 void Worker::stop() {
     if (socket_ >= 0) ::close(socket_);
     socket_ = -1;
     if (pid_ > 0) {
         ::kill(pid_, SIGKILL);
-        reap();
+        reap(pid_);
         if (request_) remove_stale_file(request_->output, pid_);
     }
     pid_ = -1;

@@ -44,7 +44,6 @@ class Worker {
     void start();
     bool send(const std::string& message);
     void hand(const Request& request);
-    int reap();
     bool read_socket();
     std::optional<Record> take_record();
     Record ended(const std::string& reason, int exit_code, std::string text);

@@ -87,6 +87,31 @@ void print_throughput(const Subject& subject, Backend& gpu, Backend& cpu) {
     }
 }
 
+// As the workers of a batch do: so many copies of a small solid, each with the eyes of a round.
+void print_sharing(const Subject& subject, Backend& gpu) {
+    for (const std::size_t eyes : {12, 100, 600}) {
+        for (const std::size_t solids : {1, 4, 16, 64}) {
+            std::vector<std::unique_ptr<VisibilitySource>> sources;
+            std::vector<Vec3> all;
+            for (std::size_t i = 0; i < eyes; ++i)
+                all.push_back(subject.eyes[i % subject.eyes.size()]);
+            std::vector<EyeRecord> records(eyes);
+            std::vector<Look> looks;
+            for (std::size_t i = 0; i < solids; ++i) {
+                sources.push_back(gpu.prepare(subject.surface));
+                looks.push_back({sources.back().get(), all, records});
+            }
+            gpu.look(looks);
+            const double at_once = median_seconds([&] { gpu.look(looks); });
+            const double in_turn = median_seconds([&] {
+                for (const Look& look : looks) look.source->look(look.eyes, look.records);
+            });
+            fmt::print("  {:>3} solids of {:>3} eyes: {:7.3f} ms at once, {:7.3f} ms in turn\n",
+                       solids, eyes, at_once * 1e3, in_turn * 1e3);
+        }
+    }
+}
+
 double stage_seconds(const ExtractResult& result, std::string_view name) {
     for (const StageTime& stage : result.statistics.stages) {
         if (stage.stage == name) return stage.seconds;
@@ -125,6 +150,7 @@ int run(int argc, char** argv) {
             fmt::print("{}\n", subject.name);
             print_difference(subject, *gpu, *cpu);
             print_throughput(subject, *gpu, *cpu);
+            print_sharing(subject, *gpu);
             print_settling(path, *gpu, *cpu);
         }
         return 0;

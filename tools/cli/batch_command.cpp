@@ -8,7 +8,10 @@
 #include <csignal>
 #include <cstdlib>
 #include <cstring>
+#include <memory>
 
+#include "batch/gpu_process.h"
+#include "batch/gpu_server.h"
 #include "batch/machine.h"
 #include "batch/manifest.h"
 #include "batch/page.h"
@@ -22,6 +25,7 @@
 #include "zskel/core/log.h"
 #include "zskel/core/parallel.h"
 #include "zskel/io/output_file.h"
+#include "zskel/visibility/choose.h"
 
 namespace zskel::cli {
 namespace {
@@ -92,8 +96,24 @@ ExitCode serve_parent(const Arguments& arguments, const Common& common) {
     const WorkerOrders orders = worker_orders();
     set_worker_log(common);
     set_thread_limit(orders.threads);
-    batch::serve(orders.socket, task_of(arguments, common), orders.memory_mb);
+    batch::Task task = task_of(arguments, common);
+    task.backend.work.context_share = orders.context_share;
+    if (orders.role == WorkerRole::Gpu)
+        batch::serve_gpu(orders.socket, backend_options_for({}, task.extract, task.backend));
+    else
+        batch::serve(orders.socket, task, orders.gpu_address, orders.memory_mb);
     return ExitCode::Ok;
+}
+
+// Opened where a GPU may be used; nothing is loaded there before a worker asks.
+std::unique_ptr<batch::GpuProcess> open_gpu_process(const BackendOptions& backend) {
+    if (!uses_gl(backend) && !(backend.kind == BackendKind::Auto && has_gpu_device())) return {};
+    return std::make_unique<batch::GpuProcess>([](int listening) {
+        WorkerOrders orders;
+        orders.role = WorkerRole::Gpu;
+        orders.socket = listening;
+        become_worker(orders);
+    });
 }
 
 void fill_run_options(Arguments& arguments, std::size_t items, const Common& common) {
@@ -134,10 +154,19 @@ ExitCode run_batch(const Arguments& given, const Common& common) {
         log_warning("{}: {} lines are no records", journal_of(arguments, shard),
                     journal.strange_lines());
     batch::make_folders(items);
-    const WorkerOrders orders{-1, arguments.item_memory_mb,
-                              common.threads > 0 || arguments.workers == 1 ? common.threads : 1};
-    const batch::RunResult result = batch::run_items(
-        items, arguments.run, journal, [&orders](int socket) { become_worker(socket, orders); });
+    const auto gpu = open_gpu_process(arguments.how.backend);
+    arguments.run.gpu = gpu.get();
+    WorkerOrders orders;
+    orders.memory_mb = arguments.item_memory_mb;
+    orders.threads = common.threads > 0 || arguments.workers == 1 ? common.threads : 1;
+    orders.context_share = static_cast<double>(arguments.workers) /
+                           static_cast<double>(std::max(items.size(), std::size_t{1}));
+    if (gpu) orders.gpu_address = gpu->address();
+    const batch::RunResult result =
+        batch::run_items(items, arguments.run, journal, [&orders](int socket) {
+            orders.socket = socket;
+            become_worker(orders);
+        });
     write_report(arguments, items, journal, result.tally);
     print(arguments.as_json ? batch::summary_json(result.tally)
                             : batch::summary_text(result.tally));

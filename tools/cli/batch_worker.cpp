@@ -32,13 +32,19 @@ bool is_batch_worker() {
 WorkerOrders worker_orders() {
     std::istringstream text(std::getenv(kVariable));
     WorkerOrders orders;
-    text >> orders.socket >> orders.memory_mb >> orders.threads;
+    int role = 0;
+    text >> role >> orders.socket >> orders.memory_mb >> orders.threads >> orders.context_share >>
+        orders.gpu_address;
+    orders.role = static_cast<WorkerRole>(role);
     return orders;
 }
 
-void become_worker(int socket, const WorkerOrders& orders) {
-    ::fcntl(socket, F_SETFD, 0);
-    ::setenv(kVariable, fmt::format("{} {} {}", socket, orders.memory_mb, orders.threads).c_str(),
+void become_worker(const WorkerOrders& orders) {
+    ::fcntl(orders.socket, F_SETFD, 0);
+    ::setenv(kVariable,
+             fmt::format("{} {} {} {} {} {}", static_cast<int>(orders.role), orders.socket,
+                         orders.memory_mb, orders.threads, orders.context_share, orders.gpu_address)
+                 .c_str(),
              1);
     std::vector<std::string> arguments = own_arguments();
     std::vector<char*> pointers;

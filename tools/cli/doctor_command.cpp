@@ -80,7 +80,7 @@ std::string batch_text() {
         "each;\n{:.0f} MiB are enough for models of 100,000 faces by the CPU\n",
         machine.cores, machine.memory_bytes / kMiB, workers,
         batch::memory_for_worker(machine, workers) / kMiB, batch::kWorkerBytes / kMiB);
-    text += machine.has_gpu ? "  all workers share the GPU, each with a context of its own\n"
+    text += machine.has_gpu ? "  all workers share the GPU by one process and one context\n"
                             : "  no GPU's device file is there\n";
     return text;
 }

@@ -36,6 +36,7 @@ class GlBackend : public Backend {
     std::unique_ptr<VisibilitySource> prepare(const Surface& solid) override {
         return make_raster_source(solid, *pipeline_);
     }
+    void look(std::span<const Look> looks) override { look_at_once(looks, *pipeline_); }
 
   private:
     std::unique_ptr<gl::Context> context_;
@@ -119,16 +120,21 @@ std::unique_ptr<Backend> open_gl(const BackendOptions& options, BackendInfo info
     return std::make_unique<GlBackend>(std::move(info), std::move(context), options.face_px);
 }
 
+std::unique_ptr<gl::Context> open_hardware(int gpu, std::vector<gl::FailedAttempt>& failed) {
+    gl::ContextRequest request;
+    request.gpu = gpu;
+    request.software = false;
+    request.osmesa = false;
+    return gl::open_context(request, failed);
+}
+
 // Auto: the CPU, or a GPU where it pays and works.
 std::unique_ptr<Backend> open_fastest(const BackendOptions& options, BackendInfo info) {
     const Choice choice =
         choose_source(options.work, options.face_px, thread_count(), has_gpu_device());
     info.reason = choice.reason;
     if (choice.is_gpu) {
-        gl::ContextRequest hardware;
-        hardware.software = false;
-        hardware.osmesa = false;
-        std::unique_ptr<gl::Context> context = gl::open_context(hardware, info.failed);
+        std::unique_ptr<gl::Context> context = open_hardware(options.gpu, info.failed);
         if (context != nullptr) {
             try {
                 auto backend = open_gl(options, info, std::move(context));
@@ -162,6 +168,10 @@ void check_options(const BackendOptions& options) {
 
 }  // namespace
 
+void Backend::look(std::span<const Look> looks) {
+    for (const Look& look : looks) look.source->look(look.eyes, look.records);
+}
+
 BackendKind parse_backend(std::string_view name) {
     for (const auto& [kind, known] : kNames) {
         if (known == name) return kind;
@@ -177,6 +187,12 @@ std::string_view name_of(BackendKind kind) {
     return "";
 }
 
+bool uses_gl(const BackendOptions& options) {
+    return options.kind == BackendKind::Gl || options.kind == BackendKind::Egl ||
+           options.kind == BackendKind::Osmesa ||
+           (options.kind == BackendKind::Auto && options.gpu >= 0);
+}
+
 std::unique_ptr<Backend> open_backend(const BackendOptions& given) {
     BackendOptions options = given;
     if (options.face_px == 0) options.face_px = kDefaultFacePx;
@@ -190,6 +206,19 @@ std::unique_ptr<Backend> open_backend(const BackendOptions& given) {
     if (context == nullptr) {
         throw GlError(fmt::format("backend {} cannot be used: {} (see zskel doctor)",
                                   name_of(options.kind), reasons(info.failed)));
+    }
+    return open_gl(options, std::move(info), std::move(context));
+}
+
+std::unique_ptr<Backend> open_gpu(const BackendOptions& given) {
+    BackendOptions options = given;
+    if (options.face_px == 0) options.face_px = kDefaultFacePx;
+    check_options(options);
+    BackendInfo info;
+    std::unique_ptr<gl::Context> context = open_hardware(options.gpu, info.failed);
+    if (context == nullptr) {
+        throw GlError(
+            fmt::format("no GPU can be used: {} (see zskel doctor)", reasons(info.failed)));
     }
     return open_gl(options, std::move(info), std::move(context));
 }

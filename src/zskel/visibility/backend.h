@@ -35,6 +35,9 @@ struct BackendOptions {
     Workload work;  ///< what Auto weighs
 };
 
+/// Whether it is GL in any case; Auto without a GPU's number decides by the work.
+bool uses_gl(const BackendOptions& options);
+
 /// What answers, and why others did not.
 struct BackendInfo {
     std::string name;  ///< egl-hardware, egl-software, egl-surfaceless, osmesa, cpu, ray, brute
@@ -53,6 +56,11 @@ class Backend {
   public:
     virtual ~Backend() = default;
     virtual std::unique_ptr<VisibilitySource> prepare(const Surface& solid) = 0;
+
+    /// What `look` of each of its sources would do, in one batch where the backend has batches:
+    /// small solids fill a GPU together. @throws GlError when a GL pass fails.
+    virtual void look(std::span<const Look> looks);
+
     const BackendInfo& info() const { return info_; }
 
   protected:
@@ -66,6 +74,9 @@ class Backend {
 /// every
 ///         candidate's reason; UsageError for options that make no sense together.
 std::unique_ptr<Backend> open_backend(const BackendOptions& options);
+
+/// A GPU by GL and no software in its place. @throws GlError when none can be used.
+std::unique_ptr<Backend> open_gpu(const BackendOptions& options);
 
 /// A context for pictures: any that works. @throws GlError when there is none, with every reason.
 std::unique_ptr<gl::Context> open_picture_context(int gpu = -1);

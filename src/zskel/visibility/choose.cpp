@@ -43,7 +43,7 @@ double predicted_cpu_seconds(const Workload& work, int face_px, int threads) {
 }
 
 double predicted_gpu_seconds(const Workload& work) {
-    return kGpuContextSeconds +
+    return kGpuContextSeconds * work.context_share +
            kGpuSeconds * size_factor(work) * static_cast<double>(work.evaluations);
 }
 

@@ -10,6 +10,7 @@ namespace zskel {
 struct Workload {
     std::size_t faces = 0;
     std::size_t evaluations = 0;  ///< cube maps
+    double context_share = 1.0;   ///< of a GPU context's making: less where others use it too
 };
 
 /// Whether a GPU's device file is there: no library is loaded and nothing opened to find out.

@@ -242,8 +242,13 @@ class RasterSource : public VisibilitySource {
         });
     }
 
-    // By the record shader; what it cannot do is drawn, read back and reduced here.
     void look(std::span<const Vec3> eyes, std::span<EyeRecord> records) override {
+        const Look one{this, eyes, records};
+        look_at_once({&one, 1}, pipeline_);
+    }
+
+    // Null where the record shader cannot do it, and the log says why.
+    const RecordShader::Solid* shaded() {
         RecordShader* shader = pipeline_.record_shader();
         if (shader != nullptr && !shaded_ && !too_large_) {
             shaded_ = shader->upload(solid());
@@ -255,9 +260,11 @@ class RasterSource : public VisibilitySource {
                     solid().triangles.size());
             }
         }
-        if (!shaded_) return VisibilitySource::look(eyes, records);
-        shader->look(*shaded_, eyes, records);
-        look_again(eyes, records);
+        return shaded_ ? &*shaded_ : nullptr;
+    }
+
+    void look_by_maps(std::span<const Vec3> eyes, std::span<EyeRecord> records) {
+        VisibilitySource::look(eyes, records);
     }
 
     void render(std::span<const Vec3> eyes, MapBatch& maps) override {
@@ -272,7 +279,6 @@ class RasterSource : public VisibilitySource {
         }
     }
 
-  private:
     // The eyes whose records the driver cut short.
     void look_again(std::span<const Vec3> eyes, std::span<EyeRecord> records) {
         std::vector<std::size_t> cut;
@@ -290,10 +296,11 @@ class RasterSource : public VisibilitySource {
                 cut.size(), eyes.size());
         }
         std::vector<EyeRecord> mended(cut.size());
-        VisibilitySource::look(again, mended);
+        look_by_maps(again, mended);
         for (std::size_t i = 0; i < cut.size(); ++i) records[cut[i]] = mended[i];
     }
 
+  private:
     void upload(const gl::Api& gl) {
         vertices_ =
             gl::make_buffer(gl, solid().positions.data(),
@@ -331,6 +338,24 @@ RasterPipelinePtr make_raster_pipeline(int face_px, gl::Context& context) {
 std::unique_ptr<VisibilitySource> make_raster_source(const Surface& solid,
                                                      RasterPipeline& pipeline) {
     return std::make_unique<RasterSource>(solid, pipeline);
+}
+
+// By the record shader; what it cannot do is drawn, read back and reduced here.
+void look_at_once(std::span<const Look> looks, RasterPipeline& pipeline) {
+    std::vector<RecordShader::Job> jobs;
+    std::vector<const Look*> shaded;
+    for (const Look& look : looks) {
+        auto& source = static_cast<RasterSource&>(*look.source);
+        if (const RecordShader::Solid* solid = source.shaded()) {
+            jobs.push_back({solid, look.eyes, look.records});
+            shaded.push_back(&look);
+        } else {
+            source.look_by_maps(look.eyes, look.records);
+        }
+    }
+    if (!jobs.empty()) pipeline.record_shader()->look(jobs);
+    for (const Look* look : shaded)
+        static_cast<RasterSource&>(*look->source).look_again(look->eyes, look->records);
 }
 
 }  // namespace zskel

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <memory>
+#include <span>
 
 #include "zskel/gl/context.h"
 #include "zskel/visibility/cube_map.h"
@@ -29,5 +30,9 @@ RasterPipelinePtr make_raster_pipeline(int face_px, gl::Context& context);
 /// @throws GlError.
 std::unique_ptr<VisibilitySource> make_raster_source(const Surface& solid,
                                                      RasterPipeline& pipeline);
+
+/// `look` of several sources that were all made with this pipeline: the record shader gets their
+/// eyes at once. @throws GlError.
+void look_at_once(std::span<const Look> looks, RasterPipeline& pipeline);
 
 }  // namespace zskel

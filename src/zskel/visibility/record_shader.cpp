@@ -53,6 +53,7 @@ RecordShader::RecordShader(int face_px, gl::Context& context) : context_(context
         gl.UniformMatrix3fv(gl::uniform(gl, program_, "face_from_world"),
                             static_cast<GLsizei>(faces.size()), GL_FALSE, &faces[0][0][0]);
         groups_ = gl::uniform(gl, program_, "groups");
+        first_eye_ = gl::uniform(gl, program_, "first_eye");
         weights_ = gl::make_buffer(gl, weights.data(), bytes_of(weights));
         GLint most = 0;
         gl.GetIntegerv(GL_MAX_SHADER_STORAGE_BLOCK_SIZE, &most);
@@ -94,34 +95,54 @@ void RecordShader::release(const Solid& solid) noexcept {
     });
 }
 
-void RecordShader::look(const Solid& solid, std::span<const Vec3> eyes,
-                        std::span<EyeRecord> records) {
-    ZSKEL_ASSERT(eyes.size() == records.size(), "one record an eye");
+// A dispatch a solid, none of which waits for another: the GPU works on all of them at once.
+void RecordShader::look(std::span<const Job> jobs) {
+    padded_eyes_.clear();
+    for (const Job& job : jobs) {
+        ZSKEL_ASSERT(job.eyes.size() == job.records.size(), "one record an eye");
+        for (const Vec3& eye : job.eyes) padded_eyes_.emplace_back(eye, 0.0f);
+    }
+    if (padded_eyes_.empty()) return;
+    all_.resize(padded_eyes_.size());
     context_.run("reducing cube maps", [&](const gl::Api& gl) {
+        eyes_.fill(gl, padded_eyes_.data(), padded_eyes_.size() * sizeof(glm::vec4));
+        const auto bytes = bytes_of(all_);
+        records_.reserve(gl, static_cast<std::size_t>(bytes));
+        // A workgroup that was cut short may not even write that it was.
+        gl.ClearNamedBufferSubData(records_.name, GL_R32F, 0, bytes, GL_RED, GL_FLOAT, &kCutShort);
         gl.UseProgram(program_);
-        gl.Uniform1ui(groups_, solid.groups);
-        for (std::size_t first = 0; first < eyes.size(); first += kMostGroups) {
-            const std::size_t count = std::min(kMostGroups, eyes.size() - first);
-            padded_eyes_.clear();
-            for (const Vec3& eye : eyes.subspan(first, count)) padded_eyes_.emplace_back(eye, 0.0f);
-            eyes_.fill(gl, padded_eyes_.data(), count * sizeof(glm::vec4));
-            const std::size_t bytes = count * sizeof(EyeRecord);
-            records_.reserve(gl, bytes);
-            // A workgroup that was cut short may not even write that it was.
-            gl.ClearNamedBufferSubData(records_.name, GL_R32F, 0, static_cast<GLsizeiptr>(bytes),
-                                       GL_RED, GL_FLOAT, &kCutShort);
-            const GLuint buffers[] = {eyes_.name,        solid.triangles,    solid.block_boxes,
-                                      solid.group_boxes, solid.first_blocks, solid.normals,
-                                      weights_,          records_.name};
-            GLuint binding = 0;
-            for (const GLuint buffer : buffers)
-                gl.BindBufferBase(GL_SHADER_STORAGE_BUFFER, binding++, buffer);
-            gl.DispatchCompute(static_cast<GLuint>(count), 1, 1);
-            gl.MemoryBarrier(GL_BUFFER_UPDATE_BARRIER_BIT);
-            gl.GetNamedBufferSubData(records_.name, 0, static_cast<GLsizeiptr>(bytes),
-                                     records.data() + first);
+        std::size_t first = 0;
+        for (const Job& job : jobs) {
+            bind(gl, *job.solid);
+            dispatch(gl, first, job.eyes.size());
+            first += job.eyes.size();
         }
+        gl.MemoryBarrier(GL_BUFFER_UPDATE_BARRIER_BIT);
+        gl.GetNamedBufferSubData(records_.name, 0, bytes, all_.data());
     });
+    auto record = all_.cbegin();
+    for (const Job& job : jobs) {
+        const auto end = record + static_cast<std::ptrdiff_t>(job.records.size());
+        std::copy(record, end, job.records.begin());
+        record = end;
+    }
+}
+
+void RecordShader::bind(const gl::Api& gl, const Solid& solid) const {
+    const GLuint buffers[] = {eyes_.name,        solid.triangles,    solid.block_boxes,
+                              solid.group_boxes, solid.first_blocks, solid.normals,
+                              weights_,          records_.name};
+    GLuint binding = 0;
+    for (const GLuint buffer : buffers)
+        gl.BindBufferBase(GL_SHADER_STORAGE_BUFFER, binding++, buffer);
+    gl.Uniform1ui(groups_, solid.groups);
+}
+
+void RecordShader::dispatch(const gl::Api& gl, std::size_t first, std::size_t count) const {
+    for (std::size_t done = 0; done < count; done += kMostGroups) {
+        gl.Uniform1ui(first_eye_, static_cast<GLuint>(first + done));
+        gl.DispatchCompute(static_cast<GLuint>(std::min(kMostGroups, count - done)), 1, 1);
+    }
 }
 
 }  // namespace zskel

@@ -37,19 +37,32 @@ class RecordShader {
     std::optional<Solid> upload(const Surface& surface);
     void release(const Solid& solid) noexcept;
 
-    /// Every eye's record. One whose work the driver cut short, as software drivers do with long
-    /// loops, has hit_fraction -1 and nothing else of meaning. @throws GlError.
-    void look(const Solid& solid, std::span<const Vec3> eyes, std::span<EyeRecord> records);
+    /// A solid's eyes and where their records go: as many.
+    struct Job {
+        const Solid* solid = nullptr;
+        std::span<const Vec3> eyes;
+        std::span<EyeRecord> records;
+    };
+
+    /// Every eye's record, of all jobs in one go. One whose work the driver cut short, as software
+    /// drivers do with long loops, has hit_fraction -1 and nothing else of meaning. @throws
+    /// GlError.
+    void look(std::span<const Job> jobs);
 
   private:
+    void bind(const gl::Api& gl, const Solid& solid) const;
+    void dispatch(const gl::Api& gl, std::size_t first, std::size_t count) const;
+
     gl::Context& context_;
     GLuint program_ = 0;
-    GLint groups_ = -1;  // uniform
+    GLint groups_ = -1;     // uniform
+    GLint first_eye_ = -1;  // likewise
     GLuint weights_ = 0;
     GLsizeiptr most_bytes_ = 0;  // of one buffer
     gl::StreamBuffer eyes_;
     gl::StreamBuffer records_;
     std::vector<glm::vec4> padded_eyes_;
+    std::vector<EyeRecord> all_;
 };
 
 }  // namespace zskel

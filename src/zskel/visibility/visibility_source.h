@@ -49,4 +49,11 @@ class VisibilitySource {
     MapBatch scratch_;
 };
 
+/// One source's eyes and where their records go: as many.
+struct Look {
+    VisibilitySource* source = nullptr;
+    std::span<const Vec3> eyes;
+    std::span<EyeRecord> records;
+};
+
 }  // namespace zskel

@@ -1,0 +1,217 @@
+#include "batch/gpu_server.h"
+
+#include <poll.h>
+#include <sys/socket.h>
+#include <sys/time.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <array>
+#include <cerrno>
+#include <cstring>
+#include <map>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "batch/gpu_wire.h"
+#include "zskel/core/error.h"
+
+namespace zskel::batch {
+namespace {
+
+constexpr timeval kPatience{10, 0};  // with a worker that takes no answer
+
+struct ServedSolid {
+    Surface surface;
+    std::unique_ptr<VisibilitySource> source;
+};
+
+// A worker: what it has sent, its solids, and what it waits to see.
+struct Client {
+    explicit Client(int of_worker) : socket(of_worker) {
+        ::setsockopt(socket, SOL_SOCKET, SO_SNDTIMEO, &kPatience, sizeof kPatience);
+    }
+    ~Client() { ::close(socket); }
+    Client(const Client&) = delete;
+    Client& operator=(const Client&) = delete;
+
+    int socket;
+    bool is_gone = false;
+    bool awaits = false;  // an answer
+    std::vector<std::byte> received;
+    std::map<std::uint32_t, ServedSolid> solids;
+    std::uint32_t looks_from = 0;  // with `eyes`, if there are any
+    std::vector<Vec3> eyes;
+    std::vector<EyeRecord> records;
+
+    void answer(std::uint32_t what, std::initializer_list<Bytes> parts) {
+        awaits = false;
+        is_gone = !send_message(socket, what, 0, parts) || is_gone;
+    }
+};
+
+template <typename T>
+std::vector<T> items_in(Bytes bytes) {
+    std::vector<T> items(bytes.size() / sizeof(T));
+    std::memcpy(items.data(), bytes.data(), items.size() * sizeof(T));
+    return items;
+}
+
+Surface surface_in(Bytes bytes) {
+    const auto counts = items_in<std::uint64_t>(bytes.first(2 * sizeof(std::uint64_t)));
+    const Bytes rest = bytes.subspan(2 * sizeof(std::uint64_t));
+    Surface surface;
+    surface.positions = items_in<Vec3>(rest.first(counts[0] * sizeof(Vec3)));
+    surface.triangles = items_in<Triangle>(rest.last(counts[1] * sizeof(Triangle)));
+    derive_normals(surface);
+    return surface;
+}
+
+class GpuServer {
+  public:
+    GpuServer(int listening, const BackendOptions& options)
+        : listening_(listening), options_(options) {}
+
+    void run() {
+        try {
+            while (true) {
+                wait();
+                for (const auto& client : clients_) take_messages(*client);
+                look();
+                std::erase_if(clients_, [](const auto& client) { return client->is_gone; });
+            }
+        } catch (const GlError& error) {
+            for (const auto& client : clients_)
+                if (client->awaits) fail(*client, error.what());
+        }
+    }
+
+  private:
+    void wait() {
+        std::vector<pollfd> watched{{listening_, POLLIN, 0}};
+        for (const auto& client : clients_) watched.push_back({client->socket, POLLIN, 0});
+        ::poll(watched.data(), watched.size(), -1);
+        for (std::size_t i = 0; i < clients_.size(); ++i)
+            if (watched[i + 1].revents != 0) read_socket(*clients_[i]);
+        if (watched[0].revents != 0) accept();
+    }
+
+    // Of the same user: the address is no secret.
+    void accept() {
+        const int socket = ::accept4(listening_, nullptr, nullptr, SOCK_CLOEXEC);
+        if (socket < 0) return;
+        auto client = std::make_unique<Client>(socket);
+        ucred peer{};
+        socklen_t size = sizeof peer;
+        const bool is_known = ::getsockopt(socket, SOL_SOCKET, SO_PEERCRED, &peer, &size) == 0;
+        if (is_known && peer.uid == ::geteuid()) clients_.push_back(std::move(client));
+    }
+
+    static void read_socket(Client& client) {
+        std::array<std::byte, 1 << 16> piece{};
+        while (true) {
+            const ssize_t count = ::recv(client.socket, piece.data(), piece.size(), MSG_DONTWAIT);
+            if (count > 0) {
+                client.received.insert(client.received.end(), piece.begin(), piece.begin() + count);
+            } else if (count == 0 || errno != EINTR) {
+                client.is_gone = count == 0 || (errno != EAGAIN && errno != EWOULDBLOCK);
+                return;
+            }
+        }
+    }
+
+    void take_messages(Client& client) {
+        std::size_t at = 0;
+        Head head;
+        while (client.received.size() - at >= sizeof head) {
+            std::memcpy(&head, client.received.data() + at, sizeof head);
+            if (client.received.size() - at - sizeof head < head.bytes) break;
+            act(client, head, Bytes(client.received).subspan(at + sizeof head, head.bytes));
+            at += sizeof head + head.bytes;
+        }
+        client.received.erase(client.received.begin(),
+                              client.received.begin() + static_cast<std::ptrdiff_t>(at));
+    }
+
+    void act(Client& client, const Head& head, Bytes bytes) {
+        client.awaits = true;
+        switch (static_cast<Ask>(head.what)) {
+            case Ask::Open:
+                return open(client);
+            case Ask::Prepare:
+                return prepare(client, head.solid, bytes);
+            case Ask::Look:
+                client.looks_from = head.solid;
+                client.eyes = items_in<Vec3>(bytes);
+                return;
+            case Ask::Render:
+                return render(client, head.solid, items_in<Vec3>(bytes));
+            case Ask::Release:
+                client.solids.erase(head.solid);
+                client.awaits = false;
+        }
+    }
+
+    // One that cannot be opened may be asked for again.
+    void open(Client& client) {
+        try {
+            if (!backend_)
+                backend_ = uses_gl(options_) ? open_backend(options_) : open_gpu(options_);
+        } catch (const GlError& error) {
+            return fail(client, error.what());
+        }
+        const std::string info = to_text(backend_->info());
+        client.answer(static_cast<std::uint32_t>(Ask::Open), {std::as_bytes(std::span(info))});
+    }
+
+    void prepare(Client& client, std::uint32_t number, Bytes bytes) {
+        ServedSolid& solid = client.solids[number];
+        solid.surface = surface_in(bytes);
+        solid.source = backend_->prepare(solid.surface);
+        client.answer(static_cast<std::uint32_t>(Ask::Prepare), {});
+    }
+
+    // What all who wait want to see.
+    void look() {
+        std::vector<Look> looks;
+        for (const auto& client : clients_) {
+            if (client->eyes.empty()) continue;
+            client->records.resize(client->eyes.size());
+            looks.push_back({client->solids.at(client->looks_from).source.get(), client->eyes,
+                             client->records});
+        }
+        if (looks.empty()) return;
+        backend_->look(looks);
+        for (const auto& client : clients_) {
+            if (client->eyes.empty()) continue;
+            client->eyes.clear();
+            client->answer(static_cast<std::uint32_t>(Ask::Look),
+                           {std::as_bytes(std::span(client->records))});
+        }
+    }
+
+    static void render(Client& client, std::uint32_t number, const std::vector<Vec3>& eyes) {
+        MapBatch maps;
+        client.solids.at(number).source->render(eyes, maps);
+        client.answer(static_cast<std::uint32_t>(Ask::Render),
+                      {std::as_bytes(std::span(maps.distance)), std::as_bytes(std::span(maps.id))});
+    }
+
+    static void fail(Client& client, const std::string& text) {
+        client.answer(kWentWrong, {std::as_bytes(std::span(text))});
+    }
+
+    int listening_;
+    BackendOptions options_;
+    std::unique_ptr<Backend> backend_;
+    std::vector<std::unique_ptr<Client>> clients_;
+};
+
+}  // namespace
+
+void serve_gpu(int listening, const BackendOptions& options) {
+    GpuServer(listening, options).run();
+}
+
+}  // namespace zskel::batch
