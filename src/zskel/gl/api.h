@@ -16,9 +16,9 @@ namespace zskel::gl {
     X(PFNGLBLENDFUNCSEPARATEPROC, BlendFuncSeparate)                     \
     X(PFNGLBLITNAMEDFRAMEBUFFERPROC, BlitNamedFramebuffer)               \
     X(PFNGLCHECKNAMEDFRAMEBUFFERSTATUSPROC, CheckNamedFramebufferStatus) \
-    X(PFNGLCLEARNAMEDBUFFERSUBDATAPROC, ClearNamedBufferSubData)         \
     X(PFNGLCLEARNAMEDFRAMEBUFFERFVPROC, ClearNamedFramebufferfv)         \
     X(PFNGLCLEARNAMEDFRAMEBUFFERUIVPROC, ClearNamedFramebufferuiv)       \
+    X(PFNGLCLIENTWAITSYNCPROC, ClientWaitSync)                           \
     X(PFNGLCLIPCONTROLPROC, ClipControl)                                 \
     X(PFNGLCOLORMASKPROC, ColorMask)                                     \
     X(PFNGLCOMPILESHADERPROC, CompileShader)                             \
@@ -33,6 +33,7 @@ namespace zskel::gl {
     X(PFNGLDELETEFRAMEBUFFERSPROC, DeleteFramebuffers)                   \
     X(PFNGLDELETEPROGRAMPROC, DeleteProgram)                             \
     X(PFNGLDELETESHADERPROC, DeleteShader)                               \
+    X(PFNGLDELETESYNCPROC, DeleteSync)                                   \
     X(PFNGLDELETETEXTURESPROC, DeleteTextures)                           \
     X(PFNGLDELETEVERTEXARRAYSPROC, DeleteVertexArrays)                   \
     X(PFNGLDEPTHFUNCPROC, DepthFunc)                                     \
@@ -45,6 +46,7 @@ namespace zskel::gl {
     X(PFNGLDRAWELEMENTSINSTANCEDPROC, DrawElementsInstanced)             \
     X(PFNGLENABLEPROC, Enable)                                           \
     X(PFNGLENABLEVERTEXARRAYATTRIBPROC, EnableVertexArrayAttrib)         \
+    X(PFNGLFENCESYNCPROC, FenceSync)                                     \
     X(PFNGLFINISHPROC, Finish)                                           \
     X(PFNGLGETERRORPROC, GetError)                                       \
     X(PFNGLGETGRAPHICSRESETSTATUSPROC, GetGraphicsResetStatus)           \
@@ -59,6 +61,7 @@ namespace zskel::gl {
     X(PFNGLGETTEXTURESUBIMAGEPROC, GetTextureSubImage)                   \
     X(PFNGLGETUNIFORMLOCATIONPROC, GetUniformLocation)                   \
     X(PFNGLLINKPROGRAMPROC, LinkProgram)                                 \
+    X(PFNGLMAPNAMEDBUFFERRANGEPROC, MapNamedBufferRange)                 \
     X(PFNGLMEMORYBARRIERPROC, MemoryBarrier)                             \
     X(PFNGLNAMEDBUFFERSTORAGEPROC, NamedBufferStorage)                   \
     X(PFNGLNAMEDBUFFERSUBDATAPROC, NamedBufferSubData)                   \

@@ -190,7 +190,12 @@ class ThreadContext : public Context {
             lock.unlock();
             attempt([&] {
                 if (is_lost_) throw GlError(fmt::format("{}: the context was lost before", stage_));
-                (*work)(api);
+                try {
+                    (*work)(api);
+                } catch (const GlError&) {
+                    check(api);  // may know better, and leaves nothing behind
+                    throw;
+                }
                 check(api);
             });
             lock.lock();

@@ -103,13 +103,12 @@ void RecordShader::look(std::span<const Job> jobs) {
         for (const Vec3& eye : job.eyes) padded_eyes_.emplace_back(eye, 0.0f);
     }
     if (padded_eyes_.empty()) return;
-    all_.resize(padded_eyes_.size());
     context_.run("reducing cube maps", [&](const gl::Api& gl) {
         eyes_.fill(gl, padded_eyes_.data(), padded_eyes_.size() * sizeof(glm::vec4));
-        const auto bytes = bytes_of(all_);
-        records_.reserve(gl, static_cast<std::size_t>(bytes));
-        // A workgroup that was cut short may not even write that it was.
-        gl.ClearNamedBufferSubData(records_.name, GL_R32F, 0, bytes, GL_RED, GL_FLOAT, &kCutShort);
+        records_.reserve(gl, padded_eyes_.size() * sizeof(EyeRecord));
+        auto* record = reinterpret_cast<EyeRecord*>(records_.bytes);
+        // A workgroup that is cut short may not even write that it was.
+        for (std::size_t e = 0; e < padded_eyes_.size(); ++e) record[e].hit_fraction = kCutShort;
         gl.UseProgram(program_);
         std::size_t first = 0;
         for (const Job& job : jobs) {
@@ -117,15 +116,12 @@ void RecordShader::look(std::span<const Job> jobs) {
             dispatch(gl, first, job.eyes.size());
             first += job.eyes.size();
         }
-        gl.MemoryBarrier(GL_BUFFER_UPDATE_BARRIER_BIT);
-        gl.GetNamedBufferSubData(records_.name, 0, bytes, all_.data());
+        gl::wait_for_writes(gl);
+        for (const Job& job : jobs) {
+            std::copy_n(record, job.records.size(), job.records.begin());
+            record += job.records.size();
+        }
     });
-    auto record = all_.cbegin();
-    for (const Job& job : jobs) {
-        const auto end = record + static_cast<std::ptrdiff_t>(job.records.size());
-        std::copy(record, end, job.records.begin());
-        record = end;
-    }
 }
 
 void RecordShader::bind(const gl::Api& gl, const Solid& solid) const {

@@ -6,6 +6,7 @@
 
 #include "zskel/gl/api.h"
 #include "zskel/gl/context.h"
+#include "zskel/gl/mapped_buffer.h"
 #include "zskel/gl/stream_buffer.h"
 #include "zskel/mesh/surface.h"
 #include "zskel/visibility/force.h"
@@ -60,9 +61,8 @@ class RecordShader {
     GLuint weights_ = 0;
     GLsizeiptr most_bytes_ = 0;  // of one buffer
     gl::StreamBuffer eyes_;
-    gl::StreamBuffer records_;
+    gl::MappedBuffer records_;
     std::vector<glm::vec4> padded_eyes_;
-    std::vector<EyeRecord> all_;
 };
 
 }  // namespace zskel
