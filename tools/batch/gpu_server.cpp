@@ -1,6 +1,7 @@
 #include "batch/gpu_server.h"
 
 #include <poll.h>
+#include <sys/prctl.h>
 #include <sys/socket.h>
 #include <sys/time.h>
 #include <unistd.h>
@@ -211,6 +212,7 @@ class GpuServer {
 }  // namespace
 
 void serve_gpu(int listening, const BackendOptions& options) {
+    ::prctl(PR_SET_NAME, "zskel-gpu");
     GpuServer(listening, options).run();
 }
 

@@ -74,11 +74,18 @@ std::size_t evaluations_of(const std::vector<SettledSeed>& settled) {
     return sum;
 }
 
+// A driver compiles its shaders at first use.
+void look_once(VisibilitySource& source, std::span<const Seed> seeds) {
+    EyeRecord record;
+    source.look({&seeds.front().position, 1}, {&record, 1});
+}
+
 // Nodes, edges by formula 2, and edges without cycles, for every cluster range.
 void print_model(const std::string& path, Backend& backend) {
     const Subject subject = load(path);
     const Surface& surface = subject.solid.surface;
     std::vector<SettledSeed> settled;
+    look_once(*backend.prepare(surface), subject.seeds);
     const double seconds = seconds_of([&] {
         const auto source = backend.prepare(surface);
         settled = settle_seeds(*source, subject.seeds, PaperStepOptions{});
@@ -164,6 +171,7 @@ void print_growth(const std::string& small, const std::string& large) {
             const auto source = backend->prepare(subject.solid.surface);
             ReadBack read_back(*source);
             VisibilitySource& used = kSources[s].reads_back ? read_back : *source;
+            look_once(used, seeds);
             const double seconds =
                 seconds_of([&] { evaluations = evaluations_of(settle_seeds(used, seeds, steps)); });
             if (base.size() < std::size(kSources)) base.push_back(seconds);

@@ -229,13 +229,11 @@ namespace {
 class RasterSource : public VisibilitySource {
   public:
     RasterSource(const Surface& solid, RasterPipeline& pipeline)
-        : VisibilitySource(solid, pipeline.directions()), pipeline_(pipeline) {
-        pipeline_.context().run("preparing the raster source",
-                                [&](const gl::Api& gl) { upload(gl); });
-    }
+        : VisibilitySource(solid, pipeline.directions()), pipeline_(pipeline) {}
 
     ~RasterSource() override {
         if (shaded_) pipeline_.record_shader()->release(*shaded_);
+        if (vertex_array_ == 0) return;
         pipeline_.context().release("releasing the raster source", [&](const gl::Api& gl) {
             gl.DeleteVertexArrays(1, &vertex_array_);
             gl.DeleteBuffers(1, &vertices_);
@@ -270,6 +268,10 @@ class RasterSource : public VisibilitySource {
     void render(std::span<const Vec3> eyes, MapBatch& maps) override {
         const std::size_t texels = directions().size();
         maps.resize(eyes.size(), texels);
+        if (vertex_array_ == 0) {
+            pipeline_.context().run("preparing the raster source",
+                                    [&](const gl::Api& gl) { upload(gl); });
+        }
         const std::size_t batch = pipeline_.max_batch(solid().triangles.size());
         for (std::size_t first = 0; first < eyes.size(); first += batch) {
             const std::size_t count = std::min(batch, eyes.size() - first);
@@ -321,7 +323,7 @@ class RasterSource : public VisibilitySource {
     std::optional<RecordShader::Solid> shaded_;
     bool too_large_ = false;
     bool has_warned_ = false;
-    GLuint vertex_array_ = 0;
+    GLuint vertex_array_ = 0;  // of whole maps, made when the first is asked for
     GLuint vertices_ = 0;
 };
 
