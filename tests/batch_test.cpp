@@ -2,14 +2,18 @@
 #include <sys/socket.h>
 #include <unistd.h>
 
+#include <chrono>
 #include <csignal>
 #include <filesystem>
 #include <fstream>
+#include <future>
 #include <set>
 #include <string>
 #include <vector>
 
 #include "batch/csv.h"
+#include "batch/gpu_process.h"
+#include "batch/gpu_wire.h"
 #include "batch/item_key.h"
 #include "batch/journal.h"
 #include "batch/machine.h"
@@ -20,9 +24,11 @@
 #include "batch/progress_line.h"
 #include "batch/request.h"
 #include "batch/run.h"
+#include "batch/shared_gpu.h"
 #include "batch/stale_files.h"
 #include "batch/tally.h"
 #include "batch/worker_pool.h"
+#include "support/shapes.h"
 #include "zskel/core/error.h"
 #include "zskel/io/output_file.h"
 
@@ -206,7 +212,7 @@ TEST_CASE("items_of_shard: the parts are the whole, each item once") {
 }
 
 TEST_CASE("request: any name travels unchanged, in pieces too") {
-    const Request request{"a\n\xff", "o \"x\"", Request::Known{"key", true}, true};
+    const Request request{"a\n\xff", "o \"x\"", Request::Known{"key", true}, true, true};
     const std::string message = to_message(request) + to_message({"b", "c", std::nullopt, false});
     std::string bytes;
     std::vector<Request> found;
@@ -220,8 +226,53 @@ TEST_CASE("request: any name travels unchanged, in pieces too") {
     CHECK(found[0].known->key == "key");
     CHECK(found[0].known->has_failed);
     CHECK(found[0].wants_thumbnail);
+    CHECK(found[0].is_alone);
     CHECK(!found[1].known);
+    CHECK(!found[1].is_alone);
     CHECK(bytes.empty());
+}
+
+TEST_CASE("gpu wire: what a backend says of itself travels unchanged") {
+    BackendInfo info;
+    info.name = "egl-hardware";
+    info.renderer = "a GPU; \"x\"";
+    info.failed = {{"device 0", "lost\n"}, {"device 1", ""}};
+    const BackendInfo back = backend_info_of(to_text(info));
+    CHECK(back.name == info.name);
+    CHECK(back.vendor.empty());
+    CHECK(back.renderer == info.renderer);
+    REQUIRE(back.failed.size() == 2);
+    CHECK(back.failed[0].reason == "lost\n");
+    CHECK(back.failed[1].candidate == "device 1");
+}
+
+TEST_CASE("GpuProcess: another takes the place of one that has ended, at the same address") {
+    // Stands in for the server: takes one connection, answers an Open and ends.
+    GpuProcess gpu([](int listening) {
+        const int socket = ::accept(listening, nullptr, nullptr);
+        Head head;
+        receive_exactly(socket, std::as_writable_bytes(std::span(&head, 1)));
+        BackendInfo info;
+        info.name = "stand-in";
+        const std::string text = to_text(info);
+        send_message(socket, head.what, 0, {std::as_bytes(std::span(text))});
+        ::_exit(0);
+    });
+    const PreparedSurface ball = prepare_surface(test::sphere(0.5, 2));
+    for (const bool is_replaced : {false, true, false}) {
+        auto opened = std::async(std::launch::async,
+                                 [&] { return open_shared_gpu(gpu.address(), 8, "why"); });
+        while (opened.wait_for(std::chrono::milliseconds(5)) != std::future_status::ready)
+            gpu.tend();
+        const auto backend = opened.get();
+        CHECK(backend->info().name == "stand-in");
+        CHECK(backend->info().reason == "why");
+        CHECK_THROWS_WITH_AS(backend->prepare(ball.surface), doctest::Contains("has ended"),
+                             GlError);
+        if (is_replaced) gpu.replace();
+    }
+    const std::string gone = gpu.address() + "x";
+    CHECK_THROWS_AS(open_shared_gpu(gone, 8, ""), GlError);
 }
 
 TEST_CASE("record: what is written is read; what is torn is nothing") {

@@ -40,6 +40,8 @@ TEST_CASE("choose: one small mesh stays on the CPU, large work goes to a GPU, if
     }
     CHECK(predicted_cpu_seconds(large, 16, 4) < predicted_cpu_seconds(large, 16, 2));
     CHECK(!choose_source(small, 8, 2, true).reason.empty());
+    // One of many that use the same context.
+    CHECK(choose_source({2000, 5000, 0.01}, 8, 2, true).is_gpu);
 }
 
 TEST_CASE("backend auto: takes the CPU here, says why, and loads no driver") {

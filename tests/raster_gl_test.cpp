@@ -179,6 +179,44 @@ TEST_CASE("record shader: right where a software driver ends its loops too soon"
     }
 }
 
+TEST_CASE("Backend: several solids' eyes at once give what each gives by itself") {
+    const std::vector<Mesh> meshes{test::torus(), test::cube(), test::sphere(0.5, 4)};
+    std::vector<PreparedSurface> prepared;
+    for (const Mesh& mesh : meshes) prepared.push_back(prepare_surface(test::askew(mesh)));
+    for (const int face_px : {8, 32}) {  // by the record shader, and by whole maps
+        const auto backend = backend_of(BackendKind::Gl, face_px);
+        std::vector<std::unique_ptr<VisibilitySource>> sources;
+        std::vector<std::vector<Vec3>> eyes;
+        std::vector<std::vector<EyeRecord>> records;
+        for (std::size_t i = 0; i < meshes.size(); ++i) {
+            sources.push_back(backend->prepare(prepared[i].surface));
+            eyes.emplace_back();
+            for (std::size_t e = 0; e < 3 + 2 * i; ++e)
+                eyes[i].emplace_back(0.04f * static_cast<float>(e), 0.3f, 0.01f);
+            records.emplace_back(eyes[i].size());
+        }
+        // The first has two turns, and one that wants nothing is between them.
+        std::vector<EyeRecord> again(eyes[0].size());
+        std::vector<Look> looks{{sources[0].get(), eyes[0], records[0]},
+                                {sources[1].get(), {}, {}},
+                                {sources[2].get(), eyes[2], records[2]},
+                                {sources[1].get(), eyes[1], records[1]},
+                                {sources[0].get(), eyes[0], again}};
+        backend->look(looks);
+        backend->look({});
+        for (std::size_t i = 0; i < meshes.size(); ++i) {
+            std::vector<EyeRecord> alone(eyes[i].size());
+            sources[i]->look(eyes[i], alone);
+            for (std::size_t e = 0; e < alone.size(); ++e) {
+                CHECK(alone[e].hit_fraction > 0.0f);
+                CHECK(test::difference(records[i][e], alone[e]) == 0.0);
+            }
+        }
+        for (std::size_t e = 0; e < again.size(); ++e)
+            CHECK(test::difference(again[e], records[0][e]) == 0.0);
+    }
+}
+
 TEST_CASE("record shader: maps too large for shared memory are reduced here") {
     const PreparedSurface prepared = prepare_surface(test::torus());
     const auto backend = backend_of(BackendKind::Gl, 32);

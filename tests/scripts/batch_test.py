@@ -21,6 +21,7 @@ QUICK = ["--backend", "cpu", "--face-px", "4", "--seeds", "60"]
 SANITIZED = "ZSKEL_SANITIZED" in os.environ
 if SANITIZED:
     QUICK += ["--item-memory", "0"]
+BY_EGL = ["--backend", "egl", *QUICK[2:]]
 PATIENCE_S = 600
 SMALL = ["cube_coarse", "capsule", "y", "torus"]
 
@@ -240,12 +241,67 @@ def case_crash():
     check_outputs("out", [f"{name}.json" for name in SMALL])
 
 
-def case_lost_context():
-    """The GPU is reset while an item is worked on: the item is tried again, but for a worker's first."""
-    copy_models()
-    line = ["in", *QUICK[2:], "--backend", "egl", "-o", "out/{stem}.json", "--workers", "1", "--json"]
+def require_egl():
     if subprocess.run([PROGRAM, "extract", "in/y.obj", "--backend", "egl", "-o", "y.json", "-q"]).returncode:
         sys.exit(77)
+
+
+def gpu_process_of(process):
+    def is_it(pid):
+        try:
+            with open(f"/proc/{pid}/comm", encoding="ascii") as file:
+                return file.read() == "zskel-gpu\n"
+        except OSError:
+            return False
+
+    return next(filter(is_it, workers_of(process)), None)
+
+
+def case_gpu():
+    """The process that talks to the GPU gives what lone runs give; killed, it costs no item."""
+    names = many_models(12)
+    copy_models()
+    require_egl()
+    line = ["in", *BY_EGL, "-o", "out/{stem}.json", "--workers", "3", "--item-timeout", "0", "--json"]
+    process = start(*line)
+    killed = set()
+    for done in (1, 4, 8):
+        wait_until(lambda: lines_of("batch.jsonl") >= done, f"{done} items")
+        pid = wait_until(lambda: gpu_process_of(process), "a GPU process")
+        signal_quietly(pid, signal.SIGKILL)
+        killed.add(pid)
+    out, err = process.communicate(timeout=PATIENCE_S)
+    expect(process.returncode == 0 and len(killed) == 3, f"exit code {process.returncode}, killed {killed}: {err}")
+    tally = json.loads(out)
+    check_sum(tally)
+    expect(tally["ok"] + tally["warned"] == len(names) + len(SMALL), tally)
+    check_outputs("out", [f"{name}.json" for name in [*names, *SMALL]])
+    for name in SMALL:
+        lone = [PROGRAM, "extract", f"in/{name}.obj", *BY_EGL, "-o", f"{name}.json", "-q"]
+        expect(subprocess.run(lone, timeout=PATIENCE_S).returncode == 0, f"{name} alone")
+        expect(graph(f"{name}.json") == graph(f"out/{name}.json"), f"{name} is not what a lone run gives")
+
+
+def case_gpu_hangs():
+    """A GPU process that hangs costs the items that wait for it, and no other."""
+    names = many_models(8)
+    copy_models()
+    require_egl()
+    process = start("in", *BY_EGL, "-o", "out/{stem}.json", "--workers", "2", "--item-timeout", "30" if SANITIZED else "8", "--json")
+    wait_until(lambda: lines_of("batch.jsonl") >= 2, "two items")
+    signal_quietly(gpu_process_of(process), signal.SIGSTOP)
+    out, err = process.communicate(timeout=PATIENCE_S)
+    tally = json.loads(out)
+    check_sum(tally)
+    expect(process.returncode == 6 and set(tally["reasons"]) == {"timeout"}, f"{tally} {err}")
+    expect(tally["failed"] in (1, 2) and tally["left"] == 0 and tally["items"] == len(names) + len(SMALL), tally)
+
+
+def case_lost_context():
+    """The GPU is reset while items are worked on: they are tried again alone, where the third case loses that too."""
+    copy_models()
+    require_egl()
+    line = ["in", *BY_EGL, "-o", "out/{stem}.json", "--workers", "1", "--json"]
     for after, failed in ((1, 0), (3, 1), (30, 0)):
         env = {**os.environ, "LD_LIBRARY_PATH": os.environ["ZSKEL_LOSING_EGL"], "ZSKEL_LOSE_AFTER": str(after)}
         journal = f"{after}.jsonl"

@@ -59,13 +59,21 @@ std::vector<T> items_in(Bytes bytes) {
     return items;
 }
 
+// Takes items off the front.
+template <typename T>
+std::vector<T> take_items(Bytes& bytes, std::uint64_t count) {
+    const std::size_t size = count * sizeof(T);
+    std::vector<T> items = items_in<T>(bytes.first(size));
+    bytes = bytes.subspan(size);
+    return items;
+}
+
 Surface surface_in(Bytes bytes) {
-    const auto counts = items_in<std::uint64_t>(bytes.first(2 * sizeof(std::uint64_t)));
-    const Bytes rest = bytes.subspan(2 * sizeof(std::uint64_t));
+    const auto counts = take_items<std::uint64_t>(bytes, 2);
     Surface surface;
-    surface.positions = items_in<Vec3>(rest.first(counts[0] * sizeof(Vec3)));
-    surface.triangles = items_in<Triangle>(rest.last(counts[1] * sizeof(Triangle)));
-    derive_normals(surface);
+    surface.positions = take_items<Vec3>(bytes, counts[0]);
+    surface.triangles = take_items<Triangle>(bytes, counts[1]);
+    surface.triangle_normals = take_items<Vec3>(bytes, counts[1]);
     return surface;
 }
 

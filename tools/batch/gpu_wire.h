@@ -15,7 +15,7 @@ namespace zskel::batch {
 /// What a worker asks of the GPU's process. Each but Release is answered, in its order.
 enum class Ask : std::uint32_t {
     Open,     ///< nothing; answered by a BackendInfo
-    Prepare,  ///< a Surface: counts of vertices and of triangles, positions, triangles
+    Prepare,  ///< counts of vertices and of triangles, positions, triangles, their normals
     Look,     ///< eyes; answered by records
     Render,   ///< eyes; answered by distances and ids of whole maps
     Release,  ///< forgets the solid

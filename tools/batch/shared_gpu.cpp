@@ -61,7 +61,8 @@ class SharedSource : public VisibilitySource {
         const std::array<std::uint64_t, 2> counts{solid.positions.size(), solid.triangles.size()};
         link_.ask(Ask::Prepare, number_,
                   {std::as_bytes(std::span(counts)), std::as_bytes(std::span(solid.positions)),
-                   std::as_bytes(std::span(solid.triangles))});
+                   std::as_bytes(std::span(solid.triangles)),
+                   std::as_bytes(std::span(solid.triangle_normals))});
     }
 
     ~SharedSource() override {
