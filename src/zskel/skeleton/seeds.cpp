@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <iterator>
+#include <numeric>
 
 #include "zskel/core/parallel.h"
 
@@ -10,6 +11,10 @@ namespace {
 
 constexpr float kClearOfVertex =
     1e-5f;  // where the inward ray starts, past the vertex's own triangles
+
+// A vertex is as thick as its neighbour so near, in thicknesses, and turned alike (a cosine).
+constexpr float kAlikeWithin = 0.05f;
+constexpr float kAlikeTurn = 0.95f;
 
 constexpr int kMostHalvings = 8;
 constexpr int kMostTurns = 200;
@@ -30,6 +35,17 @@ std::vector<std::uint32_t> ends_of_unfree(std::span<const glm::uvec2> edges,
     std::sort(ends.begin(), ends.end());
     ends.erase(std::unique(ends.begin(), ends.end()), ends.end());
     return ends;
+}
+
+// Of every vertex a neighbour that is its own, or itself where no neighbour before it is.
+std::vector<std::uint32_t> model_neighbours(const Surface& surface) {
+    std::vector<std::uint32_t> models(surface.positions.size());
+    std::iota(models.begin(), models.end(), 0u);
+    // Sorted by their lower vertex: what that one is has been settled by then.
+    for (const glm::uvec2& edge : surface.edges) {
+        if (models[edge.x] == edge.x && models[edge.y] == edge.y) models[edge.y] = edge.x;
+    }
+    return models;
 }
 
 // For each vertex a direction to the inner side of all its faces, if there is any, by turning the
@@ -68,14 +84,30 @@ std::vector<Vec3> directions_into(const Surface& surface, std::span<const std::u
 }  // namespace
 
 std::vector<float> vertex_thickness(const Surface& surface, const SurfaceQuery& query) {
+    const std::vector<std::uint32_t> models = model_neighbours(surface);
     std::vector<float> thickness(surface.positions.size());
-    parallel_for(thickness.size(), 64, [&](std::size_t begin, std::size_t end) {
-        for (std::size_t v = begin; v < end; ++v) {
-            const Vec3& vertex = surface.positions[v];
-            const Vec3 inward = -surface.vertex_normals[v];
-            thickness[v] =
-                std::max(query.free_way(vertex + inward * kClearOfVertex, inward), kClearOfVertex);
-        }
+    const auto look = [&](std::size_t v) {
+        const Vec3 inward = -surface.vertex_normals[v];
+        const Vec3 from = surface.positions[v] + inward * kClearOfVertex;
+        thickness[v] = std::max(query.free_way(from, inward), kClearOfVertex);
+    };
+    const auto for_all = [&](const auto& work) {
+        parallel_for(thickness.size(), 64, [&](std::size_t begin, std::size_t end) {
+            for (std::size_t v = begin; v < end; ++v) work(v);
+        });
+    };
+    for_all([&](std::size_t v) {
+        if (models[v] == v) look(v);
+    });
+    for_all([&](std::size_t v) {
+        const std::uint32_t model = models[v];
+        if (model == v) return;
+        const float away = glm::distance(surface.positions[v], surface.positions[model]);
+        const float turn = glm::dot(surface.vertex_normals[v], surface.vertex_normals[model]);
+        if (away <= kAlikeWithin * thickness[model] && turn >= kAlikeTurn)
+            thickness[v] = thickness[model];
+        else
+            look(v);
     });
     return thickness;
 }
