@@ -83,6 +83,27 @@ TEST_CASE("graph_topology: components and cycles") {
     CHECK(node_degrees(graph) == std::vector<std::uint32_t>{2, 2, 2, 1, 1});
 }
 
+TEST_CASE("vertex_thickness: of a fine mesh too it is the free way straight in") {
+    // A long ball: thick in its middle, thin towards its tips.
+    Mesh mesh = test::sphere(0.5, 7);
+    for (DVec3& p : mesh.positions) p.x *= 4.0;
+    const PreparedSurface prepared = prepare_surface(mesh);
+    REQUIRE(prepared.surface.positions.size() > 50000);
+    const SurfaceQuery query(prepared.surface);
+    const std::vector<float> thickness = vertex_thickness(prepared.surface, query);
+    std::size_t taken = 0;
+    std::size_t off = 0;
+    for (std::size_t v = 0; v < thickness.size(); ++v) {
+        const Vec3 inward = -prepared.surface.vertex_normals[v];
+        const float looked = query.free_way(prepared.surface.positions[v] + inward * 1e-5f, inward);
+        if (thickness[v] != looked) ++taken;
+        if (std::abs(thickness[v] - looked) > 0.06f * looked) ++off;
+    }
+    CHECK(off < thickness.size() / 1000);  // at the tips, where ways along the ball are the longest
+    CHECK(taken > thickness.size() / 2);   // from neighbours
+    CHECK(taken < thickness.size() * 4 / 5);
+}
+
 TEST_CASE("place_seeds: inside, at the offset, and no deeper than the thickness allows") {
     const PreparedSurface thick = prepare_surface(test::sphere(0.5, 3));
     const SurfaceQuery query(thick.surface);

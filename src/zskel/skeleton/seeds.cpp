@@ -12,9 +12,11 @@ namespace {
 constexpr float kClearOfVertex =
     1e-5f;  // where the inward ray starts, past the vertex's own triangles
 
-// A vertex is as thick as its neighbour so near, in thicknesses, and turned alike (a cosine).
+// Of more vertices than so many, one is as thick as its neighbour so near, in thicknesses, and
+// turned alike (a cosine).
+constexpr std::size_t kMostLookedFrom = 50'000;
 constexpr float kAlikeWithin = 0.05f;
-constexpr float kAlikeTurn = 0.95f;
+constexpr float kAlikeTurn = 0.99f;
 
 constexpr int kMostHalvings = 8;
 constexpr int kMostTurns = 200;
@@ -37,10 +39,12 @@ std::vector<std::uint32_t> ends_of_unfree(std::span<const glm::uvec2> edges,
     return ends;
 }
 
-// Of every vertex a neighbour that is its own, or itself where no neighbour before it is.
+// Of every vertex a neighbour to take after, or itself where no neighbour before it is its own
+// model.
 std::vector<std::uint32_t> model_neighbours(const Surface& surface) {
     std::vector<std::uint32_t> models(surface.positions.size());
     std::iota(models.begin(), models.end(), 0u);
+    if (models.size() <= kMostLookedFrom) return models;
     // Sorted by their lower vertex: what that one is has been settled by then.
     for (const glm::uvec2& edge : surface.edges) {
         if (models[edge.x] == edge.x && models[edge.y] == edge.y) models[edge.y] = edge.x;

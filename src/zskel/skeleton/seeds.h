@@ -21,9 +21,9 @@ struct SeedOptions {
 };
 
 /// The free way straight in from every vertex, along the reverse of its normal: the local
-/// thickness. Nowhere more than a few times the model's size, also where nothing is met. A vertex
-/// much nearer to a neighbour than the thickness there has the neighbour's: in fine meshes a third
-/// of them are looked from.
+/// thickness. Nowhere more than a few times the model's size, also where nothing is met. Of
+/// more than 50,000 vertices those much nearer to a neighbour than the thickness there have the
+/// neighbour's: a third of them are looked from.
 std::vector<float> vertex_thickness(const Surface& surface, const SurfaceQuery& query);
 
 /// The point just inside every vertex. A vertex without a normal keeps its own position.
