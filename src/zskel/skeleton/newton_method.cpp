@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "zskel/core/edges.h"
+#include "zskel/core/free_memory.h"
 #include "zskel/core/parallel.h"
 #include "zskel/skeleton/connect.h"
 #include "zskel/skeleton/method.h"
@@ -128,7 +129,10 @@ SolidSkeleton extract_by_newton(
     out.seed_end = spread.end;
     progress.begin("settle");
     out.settled = settle_seeds_newton(*source, out.seeds, options.steps, progress.report);
-    source.reset();  // on a large mesh what it holds is a fifth of all memory
+    // On a large mesh what it holds is a fifth of all memory.
+    source.reset();
+    constexpr std::size_t kLarge = 100000;
+    if (surface.triangles.size() > kLarge) return_free_memory();
     std::vector<Vec3> ends;
     for (const SettledSeed& seed : out.settled) ends.push_back(seed.position);
 

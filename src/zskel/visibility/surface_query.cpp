@@ -68,10 +68,10 @@ bool visit_triangle(RTCPointQueryFunctionArguments* arguments) {
     return true;
 }
 
-constexpr std::size_t kLarge = 100000;  // triangles: from here on memory counts for more
+// Triangles from which on the quick shape takes no longer over all, a skeleton's queries counted.
+constexpr std::size_t kLarge = 100000;
 EmbreeScene::Shape shape_for(const Surface& surface) {
-    return surface.triangles.size() < kLarge ? EmbreeScene::Shape::Fast
-                                             : EmbreeScene::Shape::Compact;
+    return surface.triangles.size() < kLarge ? EmbreeScene::Shape::Fast : EmbreeScene::Shape::Quick;
 }
 
 }  // namespace
