@@ -1,6 +1,7 @@
 #include "zskel/visibility/triangle_clusters.h"
 
 #include <algorithm>
+#include <array>
 #include <span>
 #include <utility>
 
@@ -18,6 +19,28 @@ struct Member {
 };
 using Members = std::span<Member>;
 
+// Sorts many members into what lies before, in and after one of `kBins` slices along an axis, the
+// one that the `half`-th is in, and returns that: all that a selection has to look at.
+Members narrowed(Members members, std::size_t half, int axis, float low, float size) {
+    constexpr std::size_t kBins = 256;
+    constexpr std::size_t kMany = 4096;  // fewer: a selection from all of them is as quick
+    if (members.size() < kMany || half >= members.size() || !(size > 0.0f)) return members;
+    const float scale = static_cast<float>(kBins) / size;
+    const auto bin_of = [&](const Member& member) {
+        return std::min(static_cast<std::size_t>((member.center[axis] - low) * scale), kBins - 1);
+    };
+    std::array<std::size_t, kBins> count{};
+    for (const Member& member : members) ++count[bin_of(member)];
+    std::size_t bin = 0;
+    for (std::size_t sum = count[0]; sum <= half; sum += count[++bin]) {
+    }
+    const auto in = std::partition(members.begin(), members.end(),
+                                   [&](const Member& member) { return bin_of(member) < bin; });
+    const auto after = std::partition(in, members.end(),
+                                      [&](const Member& member) { return bin_of(member) == bin; });
+    return {in, after};
+}
+
 // Halves along the longest side of the centres' box, by whole groups or else by whole blocks.
 std::pair<Members, Members> halves(Members members) {
     Vec3 low(kInfinity);
@@ -30,8 +53,10 @@ std::pair<Members, Members> halves(Members members) {
     const int axis = size.x >= size.y && size.x >= size.z ? 0 : size.y >= size.z ? 1 : 2;
     const std::size_t unit = members.size() > kGroup ? kGroup : kBlock;
     const std::size_t half = (members.size() / 2 + unit - 1) / unit * unit;
-    std::nth_element(members.begin(), members.begin() + static_cast<std::ptrdiff_t>(half),
-                     members.end(), [axis](const Member& a, const Member& b) {
+    const Members around = narrowed(members, half, axis, low[axis], size[axis]);
+    const auto before = around.data() - members.data();
+    std::nth_element(around.begin(), around.begin() + static_cast<std::ptrdiff_t>(half) - before,
+                     around.end(), [axis](const Member& a, const Member& b) {
                          return a.center[axis] != b.center[axis] ? a.center[axis] < b.center[axis]
                                                                  : a.triangle < b.triangle;
                      });
