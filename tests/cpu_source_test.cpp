@@ -15,6 +15,8 @@
 #include "zskel/core/parallel.h"
 #include "zskel/visibility/cube_map.h"
 #include "zskel/visibility/ray_source.h"
+#include "zskel/visibility/surface_query.h"
+#include "zskel/visibility/triangle_clusters.h"
 
 using namespace zskel;
 
@@ -147,6 +149,59 @@ TEST_CASE("cpu: instruction sets agree") {
             worst = std::max(worst, test::difference(records[i], first[i]));
         CHECK(worst < 1e-4);
     });
+}
+
+TEST_CASE("cpu: of a large solid eyes far from it see a level, eyes near it the surface itself") {
+    Mesh mesh = test::sphere(0.5, 7);
+    for (DVec3& p : mesh.positions) {
+        p *= 1.0 + 0.05 * std::sin(23.0 * p.x) * std::sin(19.0 * p.y) * std::sin(29.0 * p.z);
+        p.z *= 0.6;
+    }
+    const PreparedSurface prepared = prepare_surface(mesh);
+    const Surface& surface = prepared.surface;
+    REQUIRE(surface.triangles.size() > kLevelsFrom);
+    const auto exact = make_cpu_source(surface, 10);
+    const auto levels = make_cpu_source(surface, 10, CpuDetail::Levels);
+    std::vector<Vec3> near;
+    std::vector<Vec3> far;
+    for (std::size_t v = 0; v < surface.positions.size(); v += 4001) {
+        near.push_back(surface.positions[v] - surface.vertex_normals[v] * 1e-3f);
+        far.push_back(surface.positions[v] * 0.8f);
+    }
+    for (const Vec3& eye : near)
+        CHECK(test::difference(test::look(*levels, eye), test::look(*exact, eye)) == 0.0);
+    std::size_t other = 0;
+    for (const Vec3& eye : far)
+        other += test::difference(test::look(*levels, eye), test::look(*exact, eye)) > 0.0 ? 1 : 0;
+    CHECK(other == far.size());
+    BackendInfo info;
+    info.has_levels = true;
+    const SourceComparison c = compare_sources(*levels, *exact, far);
+    CHECK(is_within(c, bounds_of(info, surface.triangles.size())));
+    CHECK(!is_within(c, bounds_of(info, kLevelsFrom - 1)));
+    CHECK(c.all.worst == 0.0);  // whole maps are exact
+
+    // A sheet that is thinner than a level's cells.
+    for (DVec3& p : mesh.positions) p.z *= 0.004;
+    const PreparedSurface sheet = prepare_surface(mesh);
+    const auto sheet_exact = make_cpu_source(sheet.surface, 10);
+    const auto sheet_levels = make_cpu_source(sheet.surface, 10, CpuDetail::Levels);
+    for (const Vec3& eye : {Vec3(0.0f), Vec3(0.2f, -0.1f, 0.0f)}) {
+        const EyeRecord record = test::look(*sheet_levels, eye);
+        CHECK(record.back_fraction > 0.99f);
+        CHECK(test::difference(record, test::look(*sheet_exact, eye)) == 0.0);
+    }
+}
+
+TEST_CASE("cpu: whether a block is near is told by its box") {
+    const PreparedSurface prepared = prepare_surface(test::sphere(0.5, 5));
+    const TriangleClusters clusters = cluster_triangles(prepared.surface);
+    const SurfaceQuery query(prepared.surface);
+    for (const Vec3& p : {Vec3(0.0f), Vec3(0.3f, 0.1f, 0.0f), Vec3(0.0f, 0.49f, 0.0f)}) {
+        const float distance = query.nearest(p).distance;
+        CHECK(is_near(clusters, p, 1.001f * distance));
+        CHECK(!is_near(clusters, p, distance - 0.1f));
+    }
 }
 
 TEST_CASE("cpu: misses of an open mesh are +inf and counted") {

@@ -238,7 +238,7 @@ TEST_CASE("raster against rays: within bounds on smooth, sharp, thin and nested 
         const SourceComparison c = compare_backends(mesh, *raster, *rays, 12, {});
         CHECK(c.eyes >= 6);
         CHECK(c.one_sided == 0);
-        CHECK(is_within(c, bounds_of(raster->info())));
+        CHECK(is_within(c, bounds_of(raster->info(), mesh.triangles.size())));
     }
 }
 

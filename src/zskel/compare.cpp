@@ -10,6 +10,7 @@
 
 #include "zskel/mesh/bounds.h"
 #include "zskel/mesh/solid.h"
+#include "zskel/visibility/cpu_source.h"
 #include "zskel/visibility/cube_map.h"
 #include "zskel/visibility/surface_query.h"
 
@@ -17,6 +18,15 @@ namespace zskel {
 namespace {
 
 constexpr double kSubTexel = 1.0 / 256.0;  // GL_SUBPIXEL_BITS is 8 on what was tried
+
+// Of records by coarser levels, and of skeletons that went by them, over the diagonal.
+constexpr double kLevelForce = 5e-3;
+constexpr double kLevelJacobian = 5e-2;
+constexpr double kLevelDistance = 2e-3;
+
+bool uses_levels(const BackendInfo& backend, std::size_t triangles) {
+    return backend.has_levels && triangles >= kLevelsFrom;
+}
 
 constexpr double kForceMeansSomething = 0.05;  // of the mean of 1/r; below, its direction is noise
 
@@ -181,11 +191,16 @@ bool is_within(const SourceComparison& comparison, const ComparisonBounds& bound
     return comparison.all.median <= bounds.texel_median &&
            comparison.inner.p999 <= bounds.inner_p999 &&
            comparison.force_error_p95 <= bounds.force_p95 &&
-           comparison.jacobian_error_p95 <= bounds.jacobian_p95;
+           comparison.jacobian_error_p95 <= bounds.jacobian_p95 &&
+           comparison.angle_median_deg <= bounds.angle_median_deg;
 }
 
-ComparisonBounds bounds_of(const BackendInfo& backend) {
+ComparisonBounds bounds_of(const BackendInfo& backend, std::size_t triangles) {
     ComparisonBounds bounds;
+    if (uses_levels(backend, triangles)) {
+        bounds.force_p95 = kLevelForce;
+        bounds.jacobian_p95 = kLevelJacobian;
+    }
     if (backend.name == gl::name_of(gl::ContextKind::EglHardware)) bounds.inner_p999 = kSubTexel;
     return bounds;
 }
@@ -317,6 +332,12 @@ bool is_within(const SkeletonComparison& comparison, const SkeletonBounds& bound
                bounds.parted_share * static_cast<double>(comparison.seeds) &&
            apart <= bounds.node_share * reference &&
            comparison.mean_distance_diagonals <= bounds.mean_distance_diagonals;
+}
+
+SkeletonBounds skeleton_bounds_of(const BackendInfo& backend, std::size_t triangles) {
+    SkeletonBounds bounds;
+    if (uses_levels(backend, triangles)) bounds.mean_distance_diagonals = kLevelDistance;
+    return bounds;
 }
 
 }  // namespace zskel

@@ -58,12 +58,14 @@ struct ComparisonBounds {
     double inner_p999 = 1e-3;
     double force_p95 = 1e-3;
     double jacobian_p95 = 1e-3;
+    double angle_median_deg = 0.15;
 };
 bool is_within(const SourceComparison& comparison, const ComparisonBounds& bounds);
 
-/// Of a backend: hardware draws corners where they lie to 1/256 of a texel, so that a texel as near
-/// to an edge may show the plane beside it.
-ComparisonBounds bounds_of(const BackendInfo& backend);
+/// Of a backend on a solid of so many triangles: hardware draws corners where they lie to 1/256 of
+/// a texel, so that a texel as near to an edge may show the plane beside it; records by coarser
+/// levels have wider bounds of their own.
+ComparisonBounds bounds_of(const BackendInfo& backend, std::size_t triangles);
 
 /// Eyes on which sources are compared: of seeds spread evenly over the vertices, one third at their
 /// starts, one third half-way, one third at their ends, settled by the paper's method with
@@ -99,6 +101,9 @@ struct SkeletonBounds {
     double mean_distance_diagonals = 0.005;
 };
 bool is_within(const SkeletonComparison& comparison, const SkeletonBounds& bounds);
+
+/// Skeletons by coarser levels are to be nearer, as the same seeds go the same ways.
+SkeletonBounds skeleton_bounds_of(const BackendInfo& backend, std::size_t triangles);
 
 /// @param tolerance  how far apart ends of one seed may be, model units.
 SkeletonComparison compare_skeletons(const ExtractResult& tested, const ExtractResult& reference,

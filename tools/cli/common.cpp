@@ -112,6 +112,8 @@ void add_backend_options(CLI::App& command, BackendOptions& options) {
         .add_option("--face-px", options.face_px,
                     "Texels along a cube face, 4 to 1024 (default 16; 10 for --method newton)")
         ->check(CLI::Range(kMinFacePx, kMaxFacePx));
+    command.add_flag("--exact", options.exact,
+                     "The CPU's Z-buffer: no coarser levels of solids of 100,000 faces and more");
     command
         .add_option("--rays", options.rays,
                     "Ray backends: this many directions an eye, spread evenly, in place of the "

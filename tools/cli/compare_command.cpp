@@ -58,7 +58,8 @@ Json to_json(const SourceComparison& c, const ComparisonBounds& bounds) {
              {{"texel_median", bounds.texel_median},
               {"inner_p999", bounds.inner_p999},
               {"force_p95", bounds.force_p95},
-              {"jacobian_p95", bounds.jacobian_p95}}},
+              {"jacobian_p95", bounds.jacobian_p95},
+              {"angle_median_deg", bounds.angle_median_deg}}},
             {"within_bounds", is_within(c, bounds)}};
 }
 
@@ -93,9 +94,9 @@ std::string to_text(const SourceComparison& c, const ComparisonBounds& bounds) {
         c.angles, c.angle_median_deg, c.angle_worst_deg);
     text += fmt::format(
         "{} (bounds: texel median {:.0e}, 99.9 % of inner texels {:.0e}, 95 % of forces {:.0e}, "
-        "of Jacobians {:.0e})\n",
+        "of Jacobians {:.0e}, median angle {} degrees)\n",
         is_within(c, bounds) ? "within bounds" : "NOT within bounds", bounds.texel_median,
-        bounds.inner_p999, bounds.force_p95, bounds.jacobian_p95);
+        bounds.inner_p999, bounds.force_p95, bounds.jacobian_p95, bounds.angle_median_deg);
     return text;
 }
 
@@ -159,15 +160,16 @@ ExitCode compare(const Arguments& arguments, const Common& common) {
     bool is_fine = false;
     if (arguments.method.empty()) {
         const SourceComparison c = compare_backends(mesh, *tested, *reference, arguments.eyes, {});
-        const ComparisonBounds bounds = bounds_of(tested->info());
+        const ComparisonBounds bounds = bounds_of(tested->info(), mesh.triangles.size());
         is_fine = is_within(c, bounds);
         out.update(to_json(c, bounds));
         text += to_text(c, bounds);
     } else {
         const SkeletonComparison c = compare_extracts(mesh, options, *tested, *reference);
-        is_fine = is_within(c, SkeletonBounds{});
-        out.update(to_json(c, SkeletonBounds{}));
-        text += to_text(c, SkeletonBounds{});
+        const SkeletonBounds bounds = skeleton_bounds_of(tested->info(), mesh.triangles.size());
+        is_fine = is_within(c, bounds);
+        out.update(to_json(c, bounds));
+        text += to_text(c, bounds);
     }
     print(arguments.as_json ? out.dump(2) + "\n" : text);
     return is_fine ? ExitCode::Ok : ExitCode::Check;

@@ -152,6 +152,7 @@ Json options_json(const Provenance& provenance) {
              {"gpu", provenance.backend_options.gpu},
              {"face_px", provenance.backend_options.face_px},
              {"rays", provenance.backend_options.rays},
+             {"exact", provenance.backend_options.exact},
              {"repairs", o.repair.is_allowed},
              {"weld_tolerance_diagonals", o.repair.weld_tolerance_diagonals},
              {"caps", o.repair.has_caps},

@@ -58,13 +58,15 @@ class RayBackend : public Backend {
 
 class CpuBackend : public Backend {
   public:
-    CpuBackend(BackendInfo info, int face_px) : Backend(std::move(info)), face_px_(face_px) {}
+    CpuBackend(BackendInfo info, int face_px, CpuDetail detail)
+        : Backend(std::move(info)), face_px_(face_px), detail_(detail) {}
     std::unique_ptr<VisibilitySource> prepare(const Surface& solid) override {
-        return make_cpu_source(solid, face_px_);
+        return make_cpu_source(solid, face_px_, detail_);
     }
 
   private:
     int face_px_;
+    CpuDetail detail_;
 };
 
 bool is_ray(BackendKind kind) {
@@ -98,7 +100,9 @@ std::unique_ptr<Backend> open_cpu(const BackendOptions& options, BackendInfo inf
     info.renderer = fmt::format("Z-buffer, {}", cpu_instruction_set());
     info.version = ZSKEL_VERSION;
     info.is_raster = true;
-    return std::make_unique<CpuBackend>(std::move(info), options.face_px);
+    info.has_levels = !options.exact;
+    const CpuDetail detail = options.exact ? CpuDetail::Exact : CpuDetail::Levels;
+    return std::make_unique<CpuBackend>(std::move(info), options.face_px, detail);
 }
 
 std::string reasons(const std::vector<gl::FailedAttempt>& failed) {

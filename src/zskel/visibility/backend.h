@@ -28,9 +28,10 @@ std::string_view name_of(BackendKind kind);
 
 struct BackendOptions {
     BackendKind kind = BackendKind::Auto;
-    int gpu = -1;     ///< number of the hardware device to take; -1: any
-    int face_px = 0;  ///< texels along a cube face; 0: 16, or what the method needs, see
-                      ///< backend_options_for
+    int gpu = -1;        ///< number of the hardware device to take; -1: any
+    int face_px = 0;     ///< texels along a cube face; 0: 16, or what the method needs, see
+                         ///< backend_options_for
+    bool exact = false;  ///< the CPU's Z-buffer: no coarser levels of large solids
     int rays = 0;   ///< ray backends only: directions an eye, spread radially; 0: the cube's texels
     Workload work;  ///< what Auto weighs
 };
@@ -47,6 +48,7 @@ struct BackendInfo {
     std::string reason;                     ///< why Auto took it; empty where it was asked for
     std::vector<gl::FailedAttempt> failed;  ///< candidates tried before it
     bool is_raster = false;                 ///< a Z-buffer, not rays
+    bool has_levels = false;                ///< large solids are seen by coarser levels too
 };
 
 /// An opened backend: prepares one source a solid. Sources must not outlive it. One call at a time,

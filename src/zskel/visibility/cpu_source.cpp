@@ -2,17 +2,24 @@
 
 #include <algorithm>
 #include <numeric>
+#include <optional>
 #include <utility>
 
 #include "zskel/core/assert.h"
 #include "zskel/core/instruction_set.h"
 #include "zskel/core/parallel.h"
 #include "zskel/visibility/cube_map.h"
+#include "zskel/visibility/surface_level.h"
 #include "zskel/visibility/triangle_clusters.h"
 #include "zskel/visibility/zbuffer.h"
 
 namespace zskel {
 namespace {
+
+// The level: its share of the triangles, and how many of its errors an eye must be away from a
+// block.
+constexpr double kLevelShare = 0.125;
+constexpr float kFarErrors = 10.0f;
 
 constexpr std::size_t kGrain = 8;  // eyes at least that share one Z-buffer, one after the other
 
@@ -46,10 +53,14 @@ std::vector<std::uint32_t> order_in_space(std::span<const Vec3> eyes) {
 
 class CpuSource : public VisibilitySource {
   public:
-    CpuSource(const Surface& solid, int face_px)
+    CpuSource(const Surface& solid, int face_px, CpuDetail detail)
         : VisibilitySource(solid, cube_directions(face_px)),
           grid_(face_px),
-          clusters_(cluster_triangles(solid)) {}
+          clusters_(cluster_triangles(solid)) {
+        if (detail == CpuDetail::Exact || solid.triangles.size() < kLevelsFrom) return;
+        level_ = coarser_level(solid, kLevelShare);
+        if (level_) level_clusters_ = cluster_triangles(level_->surface);
+    }
 
     void look(std::span<const Vec3> eyes, std::span<EyeRecord> records) override {
         ZSKEL_ASSERT(eyes.size() == records.size(), "one record an eye");
@@ -57,8 +68,12 @@ class CpuSource : public VisibilitySource {
         parallel_for(eyes.size(), kGrain, [&](std::size_t begin, std::size_t end) {
             ZBuffer buffer(grid_);
             for (std::size_t i = begin; i < end; ++i) {
-                draw_zbuffer(clusters_, grid_, eyes[order[i]], buffer);
-                records[order[i]] = summarize_zbuffer(solid(), grid_, buffer);
+                const Vec3& eye = eyes[order[i]];
+                const bool is_far =
+                    level_ && !is_near(clusters_, eye, kFarErrors * level_->error_world);
+                draw_zbuffer(is_far ? level_clusters_ : clusters_, grid_, eye, buffer);
+                records[order[i]] =
+                    summarize_zbuffer(is_far ? level_->surface : solid(), grid_, buffer);
             }
         });
     }
@@ -90,12 +105,15 @@ class CpuSource : public VisibilitySource {
 
     TexelGrid grid_;
     TriangleClusters clusters_;
+    std::optional<SurfaceLevel> level_;
+    TriangleClusters level_clusters_;
 };
 
 }  // namespace
 
-std::unique_ptr<VisibilitySource> make_cpu_source(const Surface& solid, int face_px) {
-    return std::make_unique<CpuSource>(solid, face_px);
+std::unique_ptr<VisibilitySource> make_cpu_source(const Surface& solid, int face_px,
+                                                  CpuDetail detail) {
+    return std::make_unique<CpuSource>(solid, face_px, detail);
 }
 
 std::string cpu_instruction_set() {

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
+#include <cstdint>
 #include <span>
 #include <utility>
 
@@ -111,7 +113,34 @@ void fill(TriangleBlock& block, BoxBlock& boxes, std::size_t box, const Surface&
     }
 }
 
+// A bit for each box that is nearer.
+std::uint32_t near_boxes(const BoxBlock& boxes, const Vec3& point, float distance) {
+    std::array<float, kBlock> squared{};
+    for (std::size_t k = 0; k < 3; ++k) {
+        const float x = point[static_cast<int>(k)];
+        for (std::size_t i = 0; i < kBlock; ++i) {
+            const float off = std::max({boxes.low[k][i] - x, x - boxes.high[k][i], 0.0f});
+            squared[i] += off * off;
+        }
+    }
+    std::uint32_t near = 0;
+    for (std::size_t i = 0; i < kBlock; ++i)
+        near |= squared[i] < distance * distance ? 1u << i : 0u;
+    return near;
+}
+
 }  // namespace
+
+bool is_near(const TriangleClusters& clusters, const Vec3& point, float distance) {
+    for (std::size_t b = 0; b < clusters.group_boxes.size(); ++b) {
+        std::uint32_t near = near_boxes(clusters.group_boxes[b], point, distance);
+        for (; near != 0; near &= near - 1) {
+            const auto i = static_cast<std::size_t>(std::countr_zero(near));
+            if (near_boxes(clusters.block_boxes[b * kBlock + i], point, distance) != 0) return true;
+        }
+    }
+    return false;
+}
 
 TriangleClusters cluster_triangles(const Surface& surface) {
     std::vector<Member> members(surface.triangles.size());

@@ -40,4 +40,7 @@ struct TriangleClusters {
 /// numbers.)
 TriangleClusters cluster_triangles(const Surface& surface);
 
+/// Whether the box of a block is nearer to `point` than `distance`.
+bool is_near(const TriangleClusters& clusters, const Vec3& point, float distance);
+
 }  // namespace zskel
