@@ -16,6 +16,7 @@ namespace {
 std::unique_ptr<Backend> backend_of(BackendKind kind, int face_px = 16) {
     BackendOptions options;
     options.kind = kind;
+    options.exact = true;
     options.face_px = face_px;
     return open_backend(options);
 }
