@@ -269,7 +269,7 @@ TEST_CASE("GpuProcess: another takes the place of one that has ended, at the sam
         CHECK(backend->info().reason == "why");
         CHECK_THROWS_WITH_AS(backend->prepare(ball.surface), doctest::Contains("has ended"),
                              GlError);
-        if (is_replaced) gpu.replace();
+        if (is_replaced) gpu.replace_if_hung();
     }
     const std::string gone = gpu.address() + "x";
     CHECK_THROWS_AS(open_shared_gpu(gone, 8, ""), GlError);

@@ -257,6 +257,14 @@ def gpu_process_of(process):
     return next(filter(is_it, workers_of(process)), None)
 
 
+def has_mapped(pid, library):
+    try:
+        with open(f"/proc/{pid}/maps", encoding="utf-8") as file:
+            return library in file.read()
+    except OSError:
+        return False
+
+
 def case_gpu():
     """The process that talks to the GPU gives what lone runs give; killed, it costs no item."""
     names = many_models(12)
@@ -264,6 +272,10 @@ def case_gpu():
     require_egl()
     line = ["in", *BY_EGL, "-o", "out/{stem}.json", "--workers", "3", "--item-timeout", "0", "--json"]
     process = start(*line)
+    wait_until(lambda: lines_of("batch.jsonl") >= 1, "an item")
+    gpu = wait_until(lambda: gpu_process_of(process), "a GPU process")
+    drivers = [pid for pid in workers_of(process) if has_mapped(pid, "libEGL")]
+    expect(drivers == [gpu], f"{drivers} have loaded the driver, and not {gpu} alone")
     killed = set()
     for done in (1, 4, 8):
         wait_until(lambda: lines_of("batch.jsonl") >= done, f"{done} items")

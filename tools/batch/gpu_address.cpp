@@ -39,9 +39,12 @@ int listen_at(const std::string& address) {
     const Name name = name_of(address);
     const int socket = ::socket(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0);
     const auto* at = reinterpret_cast<const sockaddr*>(&name.address);
-    if (socket < 0 || ::bind(socket, at, name.size) != 0 || ::listen(socket, kBacklog) != 0)
+    if (socket < 0 || ::bind(socket, at, name.size) != 0 || ::listen(socket, kBacklog) != 0) {
+        const int error = errno;
+        if (socket >= 0) ::close(socket);
         throw Error(ExitCode::Internal,
-                    fmt::format("no socket to listen: {}", std::strerror(errno)));
+                    fmt::format("no socket to listen: {}", std::strerror(error)));
+    }
     return socket;
 }
 

@@ -1,6 +1,7 @@
 #include "batch/gpu_process.h"
 
 #include <fmt/format.h>
+#include <poll.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -10,8 +11,15 @@
 
 #include "batch/child_process.h"
 #include "batch/gpu_address.h"
+#include "batch/gpu_wire.h"
+#include "zskel/core/error.h"
 
 namespace zskel::batch {
+namespace {
+
+constexpr int kPatienceMs = 5000;
+
+}  // namespace
 
 GpuProcess::GpuProcess(std::function<void(int)> launch)
     : launch_(std::move(launch)),
@@ -41,7 +49,22 @@ void GpuProcess::tend() {
     start();
 }
 
-void GpuProcess::replace() {
+bool GpuProcess::answers() const {
+    int socket = -1;
+    try {
+        socket = connect_to(address_);
+    } catch (const GlError&) {
+        return false;
+    }
+    const bool has_asked = send_message(socket, static_cast<std::uint32_t>(Ask::Ping), 0, {});
+    pollfd answer{socket, POLLIN, 0};
+    const bool has_answer = has_asked && ::poll(&answer, 1, kPatienceMs) > 0;
+    ::close(socket);
+    return has_answer;
+}
+
+void GpuProcess::replace_if_hung() {
+    if (answers()) return;
     stop();
     start();
 }

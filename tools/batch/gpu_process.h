@@ -22,12 +22,14 @@ class GpuProcess {
     /// Starts it anew if it has ended. @throws Error.
     void tend();
 
-    /// Ends it, should it hang, and starts it anew. @throws Error.
-    void replace();
+    /// Starts it anew if it does not answer for some seconds, as when its driver hangs. @throws
+    /// Error.
+    void replace_if_hung();
 
   private:
     void start();
     void stop();
+    bool answers() const;
 
     std::function<void(int)> launch_;
     std::string address_;

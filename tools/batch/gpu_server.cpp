@@ -2,6 +2,7 @@
 
 #include <poll.h>
 #include <sys/prctl.h>
+#include <sys/resource.h>
 #include <sys/socket.h>
 #include <sys/time.h>
 #include <unistd.h>
@@ -21,7 +22,10 @@
 namespace zskel::batch {
 namespace {
 
-constexpr timeval kPatience{10, 0};  // with a worker that takes no answer
+constexpr timeval kPatience{3, 0};    // with a worker that takes no answer
+constexpr std::size_t kSlice = 2048;  // eyes of one worker at a time, so that none waits for long
+constexpr std::uint64_t kMostBytes = std::uint64_t{1} << 36;
+constexpr std::size_t kKeptBytes = std::size_t{1} << 20;  // of a buffer
 
 struct ServedSolid {
     Surface surface;
@@ -42,9 +46,10 @@ struct Client {
     bool awaits = false;  // an answer
     std::vector<std::byte> received;
     std::map<std::uint32_t, ServedSolid> solids;
-    std::uint32_t looks_from = 0;  // with `eyes`, if there are any
+    VisibilitySource* looks_from = nullptr;  // with `eyes`, if there are any
     std::vector<Vec3> eyes;
     std::vector<EyeRecord> records;
+    std::size_t looked = 0;  // of them, so far
 
     void answer(std::uint32_t what, std::initializer_list<Bytes> parts) {
         awaits = false;
@@ -70,6 +75,8 @@ std::vector<T> take_items(Bytes& bytes, std::uint64_t count) {
 
 Surface surface_in(Bytes bytes) {
     const auto counts = take_items<std::uint64_t>(bytes, 2);
+    if (bytes.size() != counts[0] * sizeof(Vec3) + counts[1] * (sizeof(Triangle) + sizeof(Vec3)))
+        throw Error(ExitCode::Internal, "a solid's message is not as long as it says");
     Surface surface;
     surface.positions = take_items<Vec3>(bytes, counts[0]);
     surface.triangles = take_items<Triangle>(bytes, counts[1]);
@@ -100,7 +107,7 @@ class GpuServer {
     void wait() {
         std::vector<pollfd> watched{{listening_, POLLIN, 0}};
         for (const auto& client : clients_) watched.push_back({client->socket, POLLIN, 0});
-        ::poll(watched.data(), watched.size(), -1);
+        ::poll(watched.data(), watched.size(), has_eyes() ? 0 : -1);
         for (std::size_t i = 0; i < clients_.size(); ++i)
             if (watched[i + 1].revents != 0) read_socket(*clients_[i]);
         if (watched[0].revents != 0) accept();
@@ -135,24 +142,44 @@ class GpuServer {
         Head head;
         while (client.received.size() - at >= sizeof head) {
             std::memcpy(&head, client.received.data() + at, sizeof head);
+            client.is_gone = client.is_gone || head.bytes > kMostBytes;
+            if (client.is_gone) break;
             if (client.received.size() - at - sizeof head < head.bytes) break;
-            act(client, head, Bytes(client.received).subspan(at + sizeof head, head.bytes));
+            serve(client, head, Bytes(client.received).subspan(at + sizeof head, head.bytes));
             at += sizeof head + head.bytes;
         }
         client.received.erase(client.received.begin(),
                               client.received.begin() + static_cast<std::ptrdiff_t>(at));
+        if (client.received.empty() && client.received.capacity() > kKeptBytes)
+            client.received = {};
+    }
+
+    // What is one worker's fault costs that one. A GL pass that failed is everybody's.
+    void serve(Client& client, const Head& head, Bytes bytes) {
+        try {
+            act(client, head, bytes);
+        } catch (const GlError&) {
+            throw;
+        } catch (const std::exception& error) {
+            fail(client, error.what());
+            client.is_gone = true;
+        }
     }
 
     void act(Client& client, const Head& head, Bytes bytes) {
         client.awaits = true;
         switch (static_cast<Ask>(head.what)) {
+            case Ask::Ping:
+                return client.answer(head.what, {});
             case Ask::Open:
                 return open(client);
             case Ask::Prepare:
                 return prepare(client, head.solid, bytes);
             case Ask::Look:
-                client.looks_from = head.solid;
+                client.looks_from = client.solids.at(head.solid).source.get();
                 client.eyes = items_in<Vec3>(bytes);
+                client.records.resize(client.eyes.size());
+                client.looked = 0;
                 return;
             case Ask::Render:
                 return render(client, head.solid, items_in<Vec3>(bytes));
@@ -175,25 +202,36 @@ class GpuServer {
     }
 
     void prepare(Client& client, std::uint32_t number, Bytes bytes) {
+        if (!backend_) throw Error(ExitCode::Internal, "no backend has been asked for");
         ServedSolid& solid = client.solids[number];
         solid.surface = surface_in(bytes);
         solid.source = backend_->prepare(solid.surface);
         client.answer(static_cast<std::uint32_t>(Ask::Prepare), {});
     }
 
-    // What all who wait want to see.
+    bool has_eyes() const {
+        return std::any_of(clients_.begin(), clients_.end(), [](const auto& client) {
+            return !client->is_gone && !client->eyes.empty();
+        });
+    }
+
+    // A slice of what each who waits wants to see.
     void look() {
         std::vector<Look> looks;
+        std::vector<Client*> looking;
         for (const auto& client : clients_) {
-            if (client->eyes.empty()) continue;
-            client->records.resize(client->eyes.size());
-            looks.push_back({client->solids.at(client->looks_from).source.get(), client->eyes,
-                             client->records});
+            if (client->is_gone || client->eyes.empty()) continue;
+            const std::size_t count = std::min(kSlice, client->eyes.size() - client->looked);
+            looks.push_back({client->looks_from,
+                             std::span(client->eyes).subspan(client->looked, count),
+                             std::span(client->records).subspan(client->looked, count)});
+            looking.push_back(client.get());
+            client->looked += count;
         }
         if (looks.empty()) return;
         backend_->look(looks);
-        for (const auto& client : clients_) {
-            if (client->eyes.empty()) continue;
+        for (Client* client : looking) {
+            if (client->looked < client->eyes.size()) continue;
             client->eyes.clear();
             client->answer(static_cast<std::uint32_t>(Ask::Look),
                            {std::as_bytes(std::span(client->records))});
@@ -221,6 +259,8 @@ class GpuServer {
 
 void serve_gpu(int listening, const BackendOptions& options) {
     ::prctl(PR_SET_NAME, "zskel-gpu");
+    const rlimit no_core{0, 0};
+    ::setrlimit(RLIMIT_CORE, &no_core);
     GpuServer(listening, options).run();
 }
 

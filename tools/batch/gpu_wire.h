@@ -14,6 +14,7 @@ namespace zskel::batch {
 
 /// What a worker asks of the GPU's process. Each but Release is answered, in its order.
 enum class Ask : std::uint32_t {
+    Ping,     ///< nothing; answered by nothing
     Open,     ///< nothing; answered by a BackendInfo
     Prepare,  ///< counts of vertices and of triangles, positions, triangles, their normals
     Look,     ///< eyes; answered by records

@@ -16,7 +16,7 @@ struct Request {
     std::string output;
     std::optional<Known> known;
     bool wants_thumbnail = false;
-    bool is_alone = false;  ///< a second try: no process that others use too has a part in it
+    bool is_alone = false;  ///< no process that others use too is to have a part in it
 };
 
 /// The bytes that say so: fields that each end with a zero byte, since names may hold any other.

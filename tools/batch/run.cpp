@@ -1,5 +1,6 @@
 #include "batch/run.h"
 
+#include <algorithm>
 #include <chrono>
 
 #include "batch/progress_line.h"
@@ -30,8 +31,9 @@ class BatchRun {
     RunResult run() {
         while (signals_.first() == 0 && (next_ < items_.size() || pool_.busy() > 0)) {
             while (next_ < items_.size() && pool_.has_idle()) give_next();
-            take(pool_.wait(kGlance, signals_.wake_fd()));
-            if (options_.gpu != nullptr) options_.gpu->tend();
+            const std::vector<Record> records = pool_.wait(kGlance, signals_.wake_fd());
+            take(records);
+            tend_gpu(records);
             progress_.show(tally_);
         }
         if (signals_.first() != 0) wind_down();
@@ -58,9 +60,17 @@ class BatchRun {
         for (const Record& record : records) {
             tally_.add(record, journal_.find(record.output));
             if (record.status != Status::Skipped) journal_.append(record);
-            // It may be the GPU that hangs, and with it all who use it.
-            if (options_.gpu != nullptr && record.reason == "timeout") options_.gpu->replace();
         }
+    }
+
+    // It may be the GPU that hangs, and with it all who use it.
+    void tend_gpu(const std::vector<Record>& records) {
+        if (options_.gpu == nullptr) return;
+        const bool has_timed_out =
+            std::any_of(records.begin(), records.end(),
+                        [](const Record& record) { return record.reason == "timeout"; });
+        if (has_timed_out) options_.gpu->replace_if_hung();
+        options_.gpu->tend();
     }
 
     // Those in work may end, for a little while.

@@ -1,6 +1,6 @@
 #include "batch/shared_gpu.h"
 
-#include <sys/socket.h>
+#include <poll.h>
 #include <unistd.h>
 
 #include <array>
@@ -29,9 +29,15 @@ class Link {
         if (!send_message(socket_, static_cast<std::uint32_t>(ask), solid, parts)) lost();
     }
 
+    // Asks for so many bytes that `receive` is to take.
+    void ask_for(std::size_t bytes, Ask what, std::uint32_t solid,
+                 std::initializer_list<Bytes> parts) {
+        if (ask(what, solid, parts) != bytes) throw GlError("the batch's GPU process errs");
+    }
+
     // Asks, and learns how long the answer is.
-    std::size_t ask(Ask ask, std::uint32_t solid, std::initializer_list<Bytes> parts) {
-        tell(ask, solid, parts);
+    std::size_t ask(Ask what, std::uint32_t solid, std::initializer_list<Bytes> parts) {
+        tell(what, solid, parts);
         Head head;
         receive(std::as_writable_bytes(std::span(&head, 1)));
         if (head.what == kWentWrong) throw GlError(receive_text(head.bytes));
@@ -48,8 +54,14 @@ class Link {
         return text;
     }
 
+    // Nothing comes that was not asked for, but for the end.
+    bool is_lost() const {
+        pollfd end{socket_, POLLIN, 0};
+        return ::poll(&end, 1, 0) != 0;
+    }
+
   private:
-    [[noreturn]] static void lost() { throw GlError("the batch's GPU process has ended"); }
+    [[noreturn]] static void lost() { throw GpuProcessLost(); }
 
     int socket_;
 };
@@ -59,16 +71,16 @@ class SharedSource : public VisibilitySource {
     SharedSource(const Surface& solid, int face_px, std::uint32_t number, Link& link)
         : VisibilitySource(solid, cube_directions(face_px)), number_(number), link_(link) {
         const std::array<std::uint64_t, 2> counts{solid.positions.size(), solid.triangles.size()};
-        link_.ask(Ask::Prepare, number_,
-                  {std::as_bytes(std::span(counts)), std::as_bytes(std::span(solid.positions)),
-                   std::as_bytes(std::span(solid.triangles)),
-                   std::as_bytes(std::span(solid.triangle_normals))});
+        link_.ask_for(0, Ask::Prepare, number_,
+                      {std::as_bytes(std::span(counts)), std::as_bytes(std::span(solid.positions)),
+                       std::as_bytes(std::span(solid.triangles)),
+                       std::as_bytes(std::span(solid.triangle_normals))});
     }
 
     ~SharedSource() override {
         try {
             link_.tell(Ask::Release, number_, {});
-        } catch (const GlError&) {  // that process has ended, and what it held with it
+        } catch (const GpuProcessLost&) {  // that process has ended, and what it held with it
         }
     }
     SharedSource(const SharedSource&) = delete;
@@ -77,13 +89,15 @@ class SharedSource : public VisibilitySource {
     void look(std::span<const Vec3> eyes, std::span<EyeRecord> records) override {
         ZSKEL_ASSERT(eyes.size() == records.size(), "one record an eye");
         if (eyes.empty()) return;
-        link_.ask(Ask::Look, number_, {std::as_bytes(eyes)});
+        link_.ask_for(records.size_bytes(), Ask::Look, number_, {std::as_bytes(eyes)});
         link_.receive(std::as_writable_bytes(records));
     }
 
     void render(std::span<const Vec3> eyes, MapBatch& maps) override {
         maps.resize(eyes.size(), directions().size());
-        link_.ask(Ask::Render, number_, {std::as_bytes(eyes)});
+        const std::size_t bytes =
+            std::span(maps.distance).size_bytes() + std::span(maps.id).size_bytes();
+        link_.ask_for(bytes, Ask::Render, number_, {std::as_bytes(eyes)});
         link_.receive(std::as_writable_bytes(std::span(maps.distance)));
         link_.receive(std::as_writable_bytes(std::span(maps.id)));
     }
@@ -101,6 +115,8 @@ class SharedGpu : public Backend {
         return std::make_unique<SharedSource>(solid, face_px_, next_++, *link_);
     }
 
+    bool is_lost() const { return link_->is_lost(); }
+
   private:
     int face_px_;
     std::unique_ptr<Link> link_;
@@ -115,6 +131,11 @@ std::unique_ptr<Backend> open_shared_gpu(const std::string& address, int face_px
     BackendInfo info = backend_info_of(link->receive_text(link->ask(Ask::Open, 0, {})));
     info.reason = reason;
     return std::make_unique<SharedGpu>(std::move(info), face_px, std::move(link));
+}
+
+bool has_lost_process(const Backend& backend) {
+    const auto* shared = dynamic_cast<const SharedGpu*>(&backend);
+    return shared != nullptr && shared->is_lost();
 }
 
 }  // namespace zskel::batch

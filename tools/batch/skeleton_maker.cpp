@@ -12,7 +12,6 @@
 #include "batch/shared_gpu.h"
 #include "scoring/base64.h"
 #include "zskel/core/input_file.h"
-#include "zskel/core/log.h"
 #include "zskel/core/parallel.h"
 #include "zskel/io/output_file.h"
 #include "zskel/io/picture.h"
@@ -22,6 +21,7 @@ namespace zskel::batch {
 namespace {
 
 constexpr std::size_t kMostWarnings = 100;  // of one item, in the journal
+constexpr int kMostConnections = 3;         // to one GPU process after the other
 constexpr int kThumbnailWidthPx = 160;
 constexpr int kThumbnailHeightPx = 120;
 
@@ -142,19 +142,26 @@ Backend& SkeletonMaker::backend_for(const BackendOptions& options) {
         choice = choose_source(options.work, options.face_px, thread_count(), has_gpu_device());
     }
     std::unique_ptr<Backend>& backend = backends_[choice.is_gpu ? 1 : 0];
+    if (backend && has_lost_process(*backend)) backend.reset();
     if (!backend) backend = open(options, choice);
     return *backend;
 }
 
-// Should the process that all share not answer, a context of one's own.
+// From the process that all share, or the one in its place. Where it can have no GPU, Auto says so
+// and takes what there is.
 std::unique_ptr<Backend> SkeletonMaker::open(const BackendOptions& options,
                                              const Choice& choice) const {
     if (choice.is_gpu && !is_alone_ && !gpu_address_.empty()) {
-        try {
-            return open_shared_gpu(gpu_address_, options.face_px, choice.reason);
-        } catch (const GlError& error) {
-            log_warning("{}", error.what());
+        for (int attempt = 0; attempt < kMostConnections; ++attempt) {
+            try {
+                return open_shared_gpu(gpu_address_, options.face_px, choice.reason);
+            } catch (const GpuProcessLost&) {
+            } catch (const GlError&) {
+                if (uses_gl(options)) throw;
+                return open_backend(options);
+            }
         }
+        throw GpuProcessLost();
     }
     return open_backend(options);
 }

@@ -121,7 +121,7 @@ std::optional<Record> Worker::take_record() {
 // what others did with it; and SIGKILL is no doing of a model's, unless the system had to make
 // room.
 bool Worker::deserves_second_try(const Record& record) const {
-    if (is_second_try_) return false;
+    if (is_second_try_ || record.status != Status::Failed) return false;
     return (record.reason == "memory" && items_done_ > 1) || record.reason == "no_backend" ||
            (record.reason == "crashed" && record.exit_code == 128 + SIGKILL);
 }
@@ -145,7 +145,7 @@ std::optional<Record> Worker::receive() {
     if (!is_open || record->reason == "memory") stop();
     if (!again) return record;
     is_second_try_ = true;
-    request.is_alone = true;
+    request.is_alone = record->reason == "no_backend";
     hand(request);
     return std::nullopt;
 }

@@ -97,7 +97,9 @@ ExitCode serve_parent(const Arguments& arguments, const Common& common) {
     set_worker_log(common);
     set_thread_limit(orders.threads);
     batch::Task task = task_of(arguments, common);
-    task.backend.work.context_share = orders.context_share;
+    // One context for all, whatever their number: the choice, and with it an item's key, is not to
+    // depend on that.
+    if (!orders.gpu_address.empty()) task.backend.work.context_share = 0.0;
     if (orders.role == WorkerRole::Gpu)
         batch::serve_gpu(orders.socket, backend_options_for({}, task.extract, task.backend));
     else
@@ -106,10 +108,11 @@ ExitCode serve_parent(const Arguments& arguments, const Common& common) {
 }
 
 // Opened where a GPU may be used; nothing is loaded there before a worker asks.
-std::unique_ptr<batch::GpuProcess> open_gpu_process(const BackendOptions& backend) {
+std::unique_ptr<batch::GpuProcess> open_gpu_process(const BackendOptions& backend, int threads) {
     if (!uses_gl(backend) && !(backend.kind == BackendKind::Auto && has_gpu_device())) return {};
-    return std::make_unique<batch::GpuProcess>([](int listening) {
+    return std::make_unique<batch::GpuProcess>([threads](int listening) {
         WorkerOrders orders;
+        orders.threads = threads;
         orders.role = WorkerRole::Gpu;
         orders.socket = listening;
         become_worker(orders);
@@ -143,6 +146,7 @@ void write_report(const Arguments& arguments, const std::vector<batch::Item>& it
 
 ExitCode run_batch(const Arguments& given, const Common& common) {
     check_method_options(given.how);
+    check_backend_options(given.how.backend);
     Arguments arguments = given;
     if (is_batch_worker()) return serve_parent(arguments, common);
     const batch::Shard shard = batch::parse_shard(arguments.shard);
@@ -154,19 +158,18 @@ ExitCode run_batch(const Arguments& given, const Common& common) {
         log_warning("{}: {} lines are no records", journal_of(arguments, shard),
                     journal.strange_lines());
     batch::make_folders(items);
-    const auto gpu = open_gpu_process(arguments.how.backend);
+    auto gpu = open_gpu_process(arguments.how.backend, common.threads);
     arguments.run.gpu = gpu.get();
     WorkerOrders orders;
     orders.memory_mb = arguments.item_memory_mb;
     orders.threads = common.threads > 0 || arguments.workers == 1 ? common.threads : 1;
-    orders.context_share = static_cast<double>(arguments.workers) /
-                           static_cast<double>(std::max(items.size(), std::size_t{1}));
     if (gpu) orders.gpu_address = gpu->address();
     const batch::RunResult result =
         batch::run_items(items, arguments.run, journal, [&orders](int socket) {
             orders.socket = socket;
             become_worker(orders);
         });
+    gpu.reset();
     write_report(arguments, items, journal, result.tally);
     print(arguments.as_json ? batch::summary_json(result.tally)
                             : batch::summary_text(result.tally));

@@ -33,8 +33,7 @@ WorkerOrders worker_orders() {
     std::istringstream text(std::getenv(kVariable));
     WorkerOrders orders;
     int role = 0;
-    text >> role >> orders.socket >> orders.memory_mb >> orders.threads >> orders.context_share >>
-        orders.gpu_address;
+    text >> role >> orders.socket >> orders.memory_mb >> orders.threads >> orders.gpu_address;
     orders.role = static_cast<WorkerRole>(role);
     return orders;
 }
@@ -42,8 +41,8 @@ WorkerOrders worker_orders() {
 void become_worker(const WorkerOrders& orders) {
     ::fcntl(orders.socket, F_SETFD, 0);
     ::setenv(kVariable,
-             fmt::format("{} {} {} {} {} {}", static_cast<int>(orders.role), orders.socket,
-                         orders.memory_mb, orders.threads, orders.context_share, orders.gpu_address)
+             fmt::format("{} {} {} {} {}", static_cast<int>(orders.role), orders.socket,
+                         orders.memory_mb, orders.threads, orders.gpu_address)
                  .c_str(),
              1);
     std::vector<std::string> arguments = own_arguments();

@@ -10,11 +10,10 @@ enum class WorkerRole { Items, Gpu };
 /// What a batch tells its workers beside the command line, which is the same for both.
 struct WorkerOrders {
     WorkerRole role = WorkerRole::Items;
-    int socket = -1;             ///< to the batch; of the GPU's process: that workers connect to
-    double memory_mb = 0.0;      ///< 0: no bound
-    int threads = 0;             ///< 0: as many as the machine has
-    double context_share = 1.0;  ///< see Workload
-    std::string gpu_address;     ///< of the GPU's process; empty: there is none
+    int socket = -1;          ///< to the batch; of the GPU's process: that workers connect to
+    double memory_mb = 0.0;   ///< 0: no bound
+    int threads = 0;          ///< 0: as many as the machine has
+    std::string gpu_address;  ///< of the GPU's process; empty: there is none
 };
 
 /// Whether this process was started as a worker.

@@ -195,6 +195,9 @@ class ThreadContext : public Context {
                 } catch (const GlError&) {
                     check(api);  // may know better, and leaves nothing behind
                     throw;
+                } catch (...) {
+                    forget_errors(api);
+                    throw;
                 }
                 check(api);
             });
@@ -236,6 +239,11 @@ class ThreadContext : public Context {
             self->said_ += fmt::format(" [{}]", std::string_view(text, size));
     }
 
+    static void forget_errors(const Api& api) {
+        for (int i = 0; i < kMostErrors && api.GetError() != GL_NO_ERROR; ++i) {
+        }
+    }
+
     void check(const Api& api) {
         const GLenum reset = api.GetGraphicsResetStatus();
         const GLenum error = api.GetError();
@@ -245,8 +253,7 @@ class ThreadContext : public Context {
                                       info_.renderer, blame_of(reset), said_));
         }
         if (error == GL_NO_ERROR) return;
-        for (int i = 0; i < kMostErrors && api.GetError() != GL_NO_ERROR; ++i) {
-        }
+        forget_errors(api);
         throw GlError(fmt::format("{} failed with {} on {}{}", stage_, error_name(error),
                                   info_.renderer, said_));
     }

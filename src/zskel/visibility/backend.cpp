@@ -155,21 +155,6 @@ std::unique_ptr<Backend> open_fastest(const BackendOptions& options, BackendInfo
     return open_cpu(options, std::move(info));
 }
 
-void check_options(const BackendOptions& options) {
-    if (options.rays != 0 && !is_ray(options.kind)) {
-        throw UsageError(fmt::format(
-            "--rays goes with --backend ray or brute; {} samples a cube map (--face-px)",
-            name_of(options.kind)));
-    }
-    const bool no_gpu = is_ray(options.kind) || options.kind == BackendKind::Cpu ||
-                        options.kind == BackendKind::Osmesa;
-    if (options.gpu >= 0 && no_gpu) {
-        throw UsageError(fmt::format("--gpu goes with a GL backend on hardware, not with {}",
-                                     name_of(options.kind)));
-    }
-    check_face_px(options.face_px);
-}
-
 }  // namespace
 
 void Backend::look(std::span<const Look> looks) {
@@ -191,6 +176,21 @@ std::string_view name_of(BackendKind kind) {
     return "";
 }
 
+void check_backend_options(const BackendOptions& options) {
+    if (options.rays != 0 && !is_ray(options.kind)) {
+        throw UsageError(fmt::format(
+            "--rays goes with --backend ray or brute; {} samples a cube map (--face-px)",
+            name_of(options.kind)));
+    }
+    const bool no_gpu = is_ray(options.kind) || options.kind == BackendKind::Cpu ||
+                        options.kind == BackendKind::Osmesa;
+    if (options.gpu >= 0 && no_gpu) {
+        throw UsageError(fmt::format("--gpu goes with a GL backend on hardware, not with {}",
+                                     name_of(options.kind)));
+    }
+    if (options.face_px != 0) check_face_px(options.face_px);
+}
+
 bool uses_gl(const BackendOptions& options) {
     return options.kind == BackendKind::Gl || options.kind == BackendKind::Egl ||
            options.kind == BackendKind::Osmesa ||
@@ -200,7 +200,7 @@ bool uses_gl(const BackendOptions& options) {
 std::unique_ptr<Backend> open_backend(const BackendOptions& given) {
     BackendOptions options = given;
     if (options.face_px == 0) options.face_px = kDefaultFacePx;
-    check_options(options);
+    check_backend_options(options);
     BackendInfo info;
     if (is_ray(options.kind)) return open_rays(options, std::move(info));
     if (options.kind == BackendKind::Cpu) return open_cpu(options, std::move(info));
@@ -217,7 +217,7 @@ std::unique_ptr<Backend> open_backend(const BackendOptions& given) {
 std::unique_ptr<Backend> open_gpu(const BackendOptions& given) {
     BackendOptions options = given;
     if (options.face_px == 0) options.face_px = kDefaultFacePx;
-    check_options(options);
+    check_backend_options(options);
     BackendInfo info;
     std::unique_ptr<gl::Context> context = open_hardware(options.gpu, info.failed);
     if (context == nullptr) {

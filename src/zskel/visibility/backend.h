@@ -72,6 +72,9 @@ class Backend {
     BackendInfo info_;
 };
 
+/// @throws UsageError for options that make no sense together.
+void check_backend_options(const BackendOptions& options);
+
 /// @throws GlError when the backend asked for cannot be had (one named never falls back), with
 /// every
 ///         candidate's reason; UsageError for options that make no sense together.
