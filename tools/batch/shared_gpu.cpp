@@ -25,8 +25,9 @@ class Link {
     Link(const Link&) = delete;
     Link& operator=(const Link&) = delete;
 
-    void tell(Ask ask, std::uint32_t solid, std::initializer_list<Bytes> parts) {
-        if (!send_message(socket_, static_cast<std::uint32_t>(ask), solid, parts)) lost();
+    // Where that process has ended, all is forgotten.
+    void forget(std::uint32_t solid) {
+        send_message(socket_, static_cast<std::uint32_t>(Ask::Release), solid, {});
     }
 
     // Asks for so many bytes that `receive` is to take.
@@ -37,7 +38,7 @@ class Link {
 
     // Asks, and learns how long the answer is.
     std::size_t ask(Ask what, std::uint32_t solid, std::initializer_list<Bytes> parts) {
-        tell(what, solid, parts);
+        if (!send_message(socket_, static_cast<std::uint32_t>(what), solid, parts)) lost();
         Head head;
         receive(std::as_writable_bytes(std::span(&head, 1)));
         if (head.what == kWentWrong) throw GlError(receive_text(head.bytes));
@@ -77,12 +78,7 @@ class SharedSource : public VisibilitySource {
                        std::as_bytes(std::span(solid.triangle_normals))});
     }
 
-    ~SharedSource() override {
-        try {
-            link_.tell(Ask::Release, number_, {});
-        } catch (const GpuProcessLost&) {  // that process has ended, and what it held with it
-        }
-    }
+    ~SharedSource() override { link_.forget(number_); }
     SharedSource(const SharedSource&) = delete;
     SharedSource& operator=(const SharedSource&) = delete;
 

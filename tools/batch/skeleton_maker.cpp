@@ -152,16 +152,16 @@ Backend& SkeletonMaker::backend_for(const BackendOptions& options) {
 std::unique_ptr<Backend> SkeletonMaker::open(const BackendOptions& options,
                                              const Choice& choice) const {
     if (choice.is_gpu && !is_alone_ && !gpu_address_.empty()) {
-        for (int attempt = 0; attempt < kMostConnections; ++attempt) {
+        for (int attempt = 1;; ++attempt) {
             try {
                 return open_shared_gpu(gpu_address_, options.face_px, choice.reason);
             } catch (const GpuProcessLost&) {
+                if (attempt == kMostConnections) throw;
             } catch (const GlError&) {
                 if (uses_gl(options)) throw;
                 return open_backend(options);
             }
         }
-        throw GpuProcessLost();
     }
     return open_backend(options);
 }
