@@ -289,7 +289,7 @@ def case_gpu():
     expect(tally["ok"] + tally["warned"] == len(names) + len(SMALL), tally)
     check_outputs("out", [f"{name}.json" for name in [*names, *SMALL]])
     for name in SMALL:
-        lone = [PROGRAM, "extract", f"in/{name}.obj", *BY_EGL, "-o", f"{name}.json", "-q"]
+        lone = [PROGRAM, "extract", f"in/{name}.obj", *BY_EGL[:6], "-o", f"{name}.json", "-q"]
         expect(subprocess.run(lone, timeout=PATIENCE_S).returncode == 0, f"{name} alone")
         expect(graph(f"{name}.json") == graph(f"out/{name}.json"), f"{name} is not what a lone run gives")
 
