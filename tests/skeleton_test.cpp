@@ -100,7 +100,7 @@ TEST_CASE("vertex_thickness: of a fine mesh too it is the free way straight in")
         if (std::abs(thickness[v] - looked) > 0.06f * looked) ++off;
     }
     CHECK(off < thickness.size() / 100);  // at the tips, where ways along the ball are the longest
-    CHECK(taken > thickness.size() / 2);   // from neighbours
+    CHECK(taken > thickness.size() / 2);  // from neighbours
     CHECK(taken < thickness.size() * 4 / 5);
 }
 

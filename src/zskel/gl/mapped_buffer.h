@@ -7,8 +7,8 @@
 namespace zskel::gl {
 
 /// Memory of the program's own that shaders write to. It grows to the largest content it has held.
-/// (A buffer of the driver's that is read back may be moved to where the GPU is slow to write: on an
-/// H200 every later pass took four times as long.)
+/// (A buffer of the driver's that is read back may be moved to where the GPU is slow to write: on
+/// an H200 every later pass took four times as long.)
 struct MappedBuffer {
     GLuint name = 0;
     GLsizeiptr capacity = 0;
