@@ -32,6 +32,7 @@ double median_seconds(const std::function<void()>& work) {
 std::unique_ptr<Backend> open(BackendKind kind, int face_px) {
     BackendOptions options;
     options.kind = kind;
+    options.exact = true;
     options.face_px = face_px;
     return open_backend(options);
 }

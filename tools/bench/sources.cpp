@@ -37,6 +37,7 @@ constexpr int kSlowEyes = 48;  // software GL
 std::unique_ptr<Backend> open(const Source& source) {
     BackendOptions options;
     options.kind = source.kind;
+    options.exact = true;
     if (source.face_px > 0) options.face_px = source.face_px;
     options.rays = source.rays;
     return open_backend(options);

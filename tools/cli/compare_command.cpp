@@ -150,6 +150,7 @@ ExitCode compare(const Arguments& arguments, const Common& common) {
     const auto tested = open_backend(tested_options);
     BackendOptions reference_options;
     reference_options.kind = arguments.reference;
+    reference_options.exact = true;  // it is taken for the truth
     reference_options.face_px = tested_options.face_px;
     const auto reference = open_backend(reference_options);
     Json out{{"model", arguments.model},
