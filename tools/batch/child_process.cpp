@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 #include <sys/prctl.h>
+#include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -22,6 +23,8 @@ void bind_to_parent(pid_t parent) {
     sigemptyset(&stops);
     for (const int signal : {SIGINT, SIGTERM, SIGHUP}) sigaddset(&stops, signal);
     ::sigprocmask(SIG_BLOCK, &stops, nullptr);
+    const rlimit no_core{0, 0};
+    ::setrlimit(RLIMIT_CORE, &no_core);
     ::prctl(PR_SET_PDEATHSIG, SIGKILL);
     if (::getppid() != parent) ::_exit(1);
 }

@@ -2,7 +2,6 @@
 
 #include <poll.h>
 #include <sys/prctl.h>
-#include <sys/resource.h>
 #include <sys/socket.h>
 #include <sys/time.h>
 #include <unistd.h>
@@ -259,8 +258,6 @@ class GpuServer {
 
 void serve_gpu(int listening, const BackendOptions& options) {
     ::prctl(PR_SET_NAME, "zskel-gpu");
-    const rlimit no_core{0, 0};
-    ::setrlimit(RLIMIT_CORE, &no_core);
     GpuServer(listening, options).run();
 }
 

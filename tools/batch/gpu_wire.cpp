@@ -1,25 +1,8 @@
 #include "batch/gpu_wire.h"
 
-#include <sys/socket.h>
-
 #include <algorithm>
-#include <cerrno>
 
 namespace zskel::batch {
-namespace {
-
-bool send_all(int socket, Bytes bytes) {
-    while (!bytes.empty()) {
-        const ssize_t count = ::send(socket, bytes.data(), bytes.size(), MSG_NOSIGNAL);
-        if (count < 0 && errno == EINTR) continue;
-        if (count < 0) return false;
-        bytes = bytes.subspan(static_cast<std::size_t>(count));
-    }
-    return true;
-}
-
-}  // namespace
-
 bool send_message(int socket, std::uint32_t what, std::uint32_t solid,
                   std::initializer_list<Bytes> parts) {
     Head head{what, solid, 0};
@@ -27,16 +10,6 @@ bool send_message(int socket, std::uint32_t what, std::uint32_t solid,
     if (!send_all(socket, std::as_bytes(std::span(&head, 1)))) return false;
     return std::all_of(parts.begin(), parts.end(),
                        [socket](const Bytes& part) { return send_all(socket, part); });
-}
-
-bool receive_exactly(int socket, std::span<std::byte> bytes) {
-    while (!bytes.empty()) {
-        const ssize_t count = ::recv(socket, bytes.data(), bytes.size(), 0);
-        if (count < 0 && errno == EINTR) continue;
-        if (count <= 0) return false;
-        bytes = bytes.subspan(static_cast<std::size_t>(count));
-    }
-    return true;
 }
 
 // Fields that each end with a zero byte.

@@ -3,11 +3,11 @@
 #include <cstddef>
 #include <cstdint>
 #include <initializer_list>
-#include <optional>
 #include <span>
 #include <string>
 #include <vector>
 
+#include "batch/socket_io.h"
 #include "zskel/visibility/backend.h"
 
 namespace zskel::batch {
@@ -32,14 +32,9 @@ struct Head {
     std::uint64_t bytes = 0;  ///< that follow
 };
 
-using Bytes = std::span<const std::byte>;
-
 /// Sends a message of several parts. @return false when the other end is gone.
 bool send_message(int socket, std::uint32_t what, std::uint32_t solid,
                   std::initializer_list<Bytes> parts);
-
-/// Waits for so many bytes. @return false when the other end is gone.
-bool receive_exactly(int socket, std::span<std::byte> bytes);
 
 std::string to_text(const BackendInfo& info);
 BackendInfo backend_info_of(const std::string& text);

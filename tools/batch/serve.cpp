@@ -7,9 +7,10 @@
 
 #include <array>
 #include <cerrno>
+#include <span>
 #include <string>
-#include <string_view>
 
+#include "batch/socket_io.h"
 #include "batch/worker_pool.h"
 
 namespace zskel::batch {
@@ -17,9 +18,7 @@ namespace {
 
 constexpr double kMegabyte = 1e6;
 
-void set_memory_bounds(double memory_mb) {
-    const rlimit no_core{0, 0};
-    ::setrlimit(RLIMIT_CORE, &no_core);
+void set_memory_bound(double memory_mb) {
     rlimit data{};
     if (memory_mb <= 0.0 || ::getrlimit(RLIMIT_DATA, &data) != 0) return;
     data.rlim_cur = std::min(data.rlim_cur, static_cast<rlim_t>(memory_mb * kMegabyte));
@@ -38,26 +37,21 @@ bool receive(int socket, std::string& bytes) {
     return true;
 }
 
-void send_all(int socket, std::string_view bytes) {
-    while (!bytes.empty()) {
-        const ssize_t count = ::send(socket, bytes.data(), bytes.size(), MSG_NOSIGNAL);
-        if (count < 0 && errno == EINTR) continue;
-        if (count < 0) return;
-        bytes.remove_prefix(static_cast<std::size_t>(count));
-    }
+void send(int socket, const std::string& text) {
+    send_all(socket, std::as_bytes(std::span(text)));
 }
 
 }  // namespace
 
 void serve(int socket, const Task& task, const std::string& gpu_address, double memory_mb) {
     ::prctl(PR_SET_NAME, "zskel-worker");
-    set_memory_bounds(memory_mb);
+    set_memory_bound(memory_mb);
     SkeletonMaker maker(task, gpu_address);
-    const auto begun = [socket](const Record& record) { send_all(socket, begun_line(record)); };
+    const auto begun = [socket](const Record& record) { send(socket, begun_line(record)); };
     std::string bytes;
     while (receive(socket, bytes)) {
         while (const std::optional<Request> request = take_request(bytes))
-            send_all(socket, to_line(maker.make(*request, begun)) + "\n");
+            send(socket, to_line(maker.make(*request, begun)) + "\n");
     }
 }
 
