@@ -1,6 +1,7 @@
 #include "batch/gpu_wire.h"
 
 #include <algorithm>
+#include <vector>
 
 namespace zskel::batch {
 bool send_message(int socket, std::uint32_t what, std::uint32_t solid,

@@ -5,7 +5,6 @@
 #include <initializer_list>
 #include <span>
 #include <string>
-#include <vector>
 
 #include "batch/socket_io.h"
 #include "zskel/visibility/backend.h"

@@ -197,10 +197,18 @@ bool uses_gl(const BackendOptions& options) {
            (options.kind == BackendKind::Auto && options.gpu >= 0);
 }
 
-std::unique_ptr<Backend> open_backend(const BackendOptions& given) {
-    BackendOptions options = given;
+namespace {
+
+BackendOptions completed(BackendOptions options) {
     if (options.face_px == 0) options.face_px = kDefaultFacePx;
     check_backend_options(options);
+    return options;
+}
+
+}  // namespace
+
+std::unique_ptr<Backend> open_backend(const BackendOptions& given) {
+    const BackendOptions options = completed(given);
     BackendInfo info;
     if (is_ray(options.kind)) return open_rays(options, std::move(info));
     if (options.kind == BackendKind::Cpu) return open_cpu(options, std::move(info));
@@ -215,9 +223,7 @@ std::unique_ptr<Backend> open_backend(const BackendOptions& given) {
 }
 
 std::unique_ptr<Backend> open_gpu(const BackendOptions& given) {
-    BackendOptions options = given;
-    if (options.face_px == 0) options.face_px = kDefaultFacePx;
-    check_backend_options(options);
+    const BackendOptions options = completed(given);
     BackendInfo info;
     std::unique_ptr<gl::Context> context = open_hardware(options.gpu, info.failed);
     if (context == nullptr) {

@@ -2,8 +2,9 @@
 
 #include <meshoptimizer.h>
 
-#include <algorithm>
 #include <cstddef>
+#include <cstdint>
+#include <vector>
 
 namespace zskel {
 
@@ -27,19 +28,16 @@ std::optional<SurfaceLevel> coarser_level(const Surface& surface, double share) 
         error * meshopt_simplifyScale(places, surface.positions.size(), sizeof(Vec3));
     // Only what is still used.
     std::vector<std::uint32_t> number(surface.positions.size(), kNone);
-    for (std::size_t i = 0; i < left.size(); i += kCorners) {
-        Triangle triangle;
-        for (int k = 0; k < 3; ++k) {
-            std::uint32_t& n = number[left[i + static_cast<std::size_t>(k)]];
-            if (n == kNone) {
-                n = static_cast<std::uint32_t>(level.surface.positions.size());
-                level.surface.positions.push_back(
-                    surface.positions[left[i + static_cast<std::size_t>(k)]]);
-            }
-            triangle[k] = n;
+    for (unsigned int& corner : left) {
+        std::uint32_t& n = number[corner];
+        if (n == kNone) {
+            n = static_cast<std::uint32_t>(level.surface.positions.size());
+            level.surface.positions.push_back(surface.positions[corner]);
         }
-        level.surface.triangles.push_back(triangle);
+        corner = n;
     }
+    for (std::size_t i = 0; i < left.size(); i += kCorners)
+        level.surface.triangles.emplace_back(left[i], left[i + 1], left[i + 2]);
     derive_normals(level.surface);
     return level;
 }
