@@ -176,6 +176,26 @@ TEST_CASE("repair: a ring that only touches itself along an edge is none, howeve
     }
 }
 
+TEST_CASE("repair: pillars that touch along one edge between the same two slabs part there") {
+    const Mesh pillars =
+        test::voxels({2, 2, 3}, 1, [](int x, int y, int z) { return z != 1 || x == y; });
+    const PreparedSurface surface = prepared(pillars);
+    CHECK(count_of(surface.repairs, "parted") == 1);
+    CHECK(count_of(surface.repairs, "kept") == 0);
+    CHECK(all_closed(surface));
+    const Topology topology =
+        find_topology(surface.surface.positions.size(), surface.surface.triangles);
+    REQUIRE(topology.components.size() == 1);
+    CHECK(topology.components.front().genus == 1);
+    // Each pillar has a vertex of its own in the middle of the edge, where the input has none.
+    REQUIRE(surface.put_in.size() == 2);
+    for (const auto& [vertex, place] : surface.put_in) CHECK(place == DVec3(1.0, 1.0, 1.5));
+
+    const ExtractResult result = test::extract(pillars);
+    CHECK(result.check.expected_cycles == 1);
+    CHECK(result.check.failures.empty());
+}
+
 TEST_CASE("repair: a fin that forks is left out whole") {
     Mesh fin = test::finer(test::cube());
     const Triangle t = fin.triangles[40];

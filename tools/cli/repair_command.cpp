@@ -35,6 +35,7 @@ Mended mend(const Mesh& mesh, const Arguments& arguments) {
     PreparedSurface prepared = prepare_surface(mesh, WorldSize::UnitCube, arguments.extract.repair);
     Mended out{{}, {}, std::move(prepared.repairs)};
     for (const std::uint32_t v : prepared.input_vertex) out.positions.push_back(mesh.positions[v]);
+    for (const auto& [v, place] : prepared.put_in) out.positions[v] = place;
     for (std::size_t t = 0; t < prepared.surface.triangles.size(); ++t) {
         if (prepared.input_triangle[t] != kNone || arguments.keeps_caps)
             out.triangles.push_back(prepared.surface.triangles[t]);

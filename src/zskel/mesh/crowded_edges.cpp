@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <iterator>
 #include <map>
 #include <numbers>
 #include <utility>
@@ -140,16 +141,17 @@ std::vector<std::pair<double, std::size_t>> round_edge(const WeldedMesh& mesh,
     return out;
 }
 
+using SidePairs = std::vector<std::pair<std::size_t, std::size_t>>;
+
 // Pairs of sides at a crowded edge; none where their number is odd.
 // @param is_turned  the triangles' fronts are inside.
-std::vector<std::pair<std::size_t, std::size_t>> pairs_at(const WeldedMesh& mesh,
-                                                          const Patches& patches, bool is_turned,
-                                                          std::size_t first, std::size_t last) {
+SidePairs pairs_at(const WeldedMesh& mesh, const Patches& patches, bool is_turned,
+                   std::size_t first, std::size_t last) {
     if ((last - first) % 2 == 1) return {};
     std::map<std::uint32_t, std::vector<std::size_t>> by_patch;
     for (std::size_t i = first; i < last; ++i)
         by_patch[patches.of_triangle[patches.sides[i].triangle]].push_back(i);
-    std::vector<std::pair<std::size_t, std::size_t>> pairs;
+    SidePairs pairs;
     for (const auto& [patch, members] : by_patch) {
         if (members.size() == 2) pairs.emplace_back(members[0], members[1]);
     }
@@ -180,6 +182,36 @@ std::vector<std::pair<std::size_t, std::size_t>> pairs_at(const WeldedMesh& mesh
     return pairs;
 }
 
+std::uint32_t add_place(WeldedMesh& mesh, DVec3 there, std::uint32_t vertex) {
+    mesh.positions.push_back(there);
+    mesh.vertex.push_back(vertex);
+    return static_cast<std::uint32_t>(mesh.positions.size() - 1);
+}
+
+// Cuts triangles at the middles of their sides. @param middle  of every side, as 3 x triangle +
+// corner: a place there, or kNone.
+void cut_sides(WeldedMesh& mesh, const std::vector<std::uint32_t>& middle) {
+    std::vector<std::uint32_t> round;  // corners and middles of a triangle
+    for (std::size_t t = 0; t < middle.size() / 3; ++t) {
+        round.clear();
+        std::ptrdiff_t at_middle = 0;
+        for (int k = 0; k < 3; ++k) {
+            round.push_back(mesh.triangles[t][k]);
+            const std::uint32_t place = middle[3 * t + static_cast<std::size_t>(k)];
+            if (place == kNone) continue;
+            at_middle = std::ssize(round);
+            round.push_back(place);
+        }
+        if (round.size() == 3) continue;
+        std::rotate(round.begin(), round.begin() + at_middle, round.end());
+        mesh.triangles[t] = {round[0], round[1], round[2]};
+        for (std::size_t k = 3; k < round.size(); ++k) {
+            mesh.triangles.emplace_back(round[0], round[k - 1], round[k]);
+            mesh.input_triangle.push_back(mesh.input_triangle[t]);
+        }
+    }
+}
+
 // Gives each fan of triangles at the crowded edges' places a place of its own; the number of edges
 // that were paired.
 std::size_t part_pairs(WeldedMesh& mesh) {
@@ -191,36 +223,50 @@ std::size_t part_pairs(WeldedMesh& mesh) {
     };
     std::vector<bool> is_at_crowd(mesh.positions.size(), false);
     const bool is_turned = signed_volume(mesh.positions, mesh.triangles) < 0.0;
-    std::size_t paired = 0;
+    std::vector<SidePairs> paired;
     for_each_edge(patches.sides, [&](std::size_t first, std::size_t last) {
         if (last - first == 2) unite(first, first + 1);
         if (last - first <= 2) return;
-        const auto pairs = pairs_at(mesh, patches, is_turned, first, last);
+        SidePairs pairs = pairs_at(mesh, patches, is_turned, first, last);
         for (const auto& [i, k] : pairs) unite(i, k);
         for (std::size_t i = first + 1; i < last && pairs.empty(); ++i) unite(first, i);
-        paired += pairs.empty() ? 0 : 1;
+        if (!pairs.empty()) paired.push_back(std::move(pairs));
         is_at_crowd[patches.sides[first].edge.x] = true;
         is_at_crowd[patches.sides[first].edge.y] = true;
     });
-    std::vector<bool> is_taken(mesh.positions.size(), false);
+    // Pairs whose fans are the same at both ends would go on being one edge: each gets a middle of
+    // its own.
+    std::vector<std::uint32_t> middle(mesh.triangles.size() * 3, kNone);
+    for (const SidePairs& pairs : paired) {
+        std::map<std::pair<std::uint32_t, std::uint32_t>, int> alike;
+        const auto ends_of = [&](const Side& side) {
+            return std::pair(fans.find(side.low_corner()), fans.find(side.high_corner()));
+        };
+        for (const auto& pair : pairs) ++alike[ends_of(patches.sides[pair.first])];
+        for (const auto& [i, k] : pairs) {
+            const Side& one = patches.sides[i];
+            const Side& other = patches.sides[k];
+            if (alike[ends_of(one)] == 1) continue;
+            const DVec3 there = 0.5 * (mesh.positions[one.edge.x] + mesh.positions[one.edge.y]);
+            const std::uint32_t place = add_place(mesh, there, mesh.vertex[one.edge.x]);
+            middle[3 * one.triangle + one.corner] = place;
+            middle[3 * other.triangle + other.corner] = place;
+        }
+    }
+    std::vector<bool> is_taken(is_at_crowd.size(), false);
     std::vector<std::uint32_t> of_fan(mesh.triangles.size() * 3, kNone);
     for (std::uint32_t corner = 0; corner < of_fan.size(); ++corner) {
         std::uint32_t& place = mesh.triangles[corner / 3][static_cast<int>(corner % 3)];
         if (place >= is_at_crowd.size() || !is_at_crowd[place]) continue;
         std::uint32_t& own = of_fan[fans.find(corner)];
-        if (own == kNone && is_taken[place]) {
-            own = static_cast<std::uint32_t>(mesh.positions.size());
-            const DVec3 there = mesh.positions[place];
-            mesh.positions.push_back(there);
-            const std::uint32_t vertex = mesh.vertex[place];
-            mesh.vertex.push_back(vertex);
-        } else if (own == kNone) {
-            own = place;
-            is_taken[place] = true;
-        }
+        if (own == kNone)
+            own = is_taken[place] ? add_place(mesh, mesh.positions[place], mesh.vertex[place])
+                                  : place;
+        is_taken[place] = true;
         place = own;
     }
-    return paired;
+    cut_sides(mesh, middle);
+    return paired.size();
 }
 
 }  // namespace

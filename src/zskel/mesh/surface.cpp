@@ -165,6 +165,10 @@ PreparedSurface prepare_surface(const Mesh& mesh, WorldSize size, const RepairOp
     for (const DVec3& p : welded.positions) {
         out.surface.positions.push_back(out.surface.world_from_model.to_world(p));
     }
+    for (std::uint32_t v = 0; v < welded.positions.size(); ++v) {
+        if (welded.positions[v] != mesh.positions[welded.vertex[v]])
+            out.put_in.emplace_back(v, welded.positions[v]);
+    }
     if (size == WorldSize::Spread && parts.component_count > 1)
         out.places = std::move(welded.positions);
     out.surface.triangles = std::move(welded.triangles);

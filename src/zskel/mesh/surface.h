@@ -58,7 +58,10 @@ struct RepairOptions {
 struct PreparedSurface {
     Surface surface;
     std::vector<std::uint32_t> surface_vertex;  ///< of every input vertex; kNone when unused
-    std::vector<std::uint32_t> input_vertex;    ///< of every vertex: an input vertex at its place
+    std::vector<std::uint32_t> input_vertex;    ///< of every vertex: an input vertex at its place,
+                                                ///< or near it for those of `put_in`
+    std::vector<std::pair<std::uint32_t, DVec3>>
+        put_in;  ///< vertices where the input has none, and their places, model space
     std::vector<std::uint32_t> input_triangle;  ///< of every triangle: its number in the mesh;
                                                 ///< kNone for those of caps, last
     std::vector<std::uint32_t> component;       ///< of every triangle: parts joined by edges

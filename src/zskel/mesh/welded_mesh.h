@@ -22,7 +22,8 @@ struct WeldedMesh {
     std::vector<Triangle> triangles;
     std::vector<std::uint32_t> input_triangle;  ///< of every triangle; kNone: put in by a repair
     std::vector<std::uint32_t> place;   ///< of every input vertex; kNone when no triangle uses it
-    std::vector<std::uint32_t> vertex;  ///< of every place: an input vertex there
+    std::vector<std::uint32_t> vertex;  ///< of every place: an input vertex there, or at
+                                        ///< an end of the edge that the place cuts
 };
 
 /// Adds to `repairs` unless `count` is 0.
