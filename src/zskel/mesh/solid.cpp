@@ -200,7 +200,8 @@ Solid one_of_many(const PreparedSurface& prepared, const Component& shell,
 
 std::vector<Solid> group_components(const PreparedSurface& prepared) {
     if (prepared.component_count == 1) {
-        std::vector<Solid> solids{whole_surface(prepared)};
+        std::vector<Solid> solids;
+        solids.push_back(whole_surface(prepared));
         finish(solids.front(), prepared);
         return solids;
     }
