@@ -22,7 +22,7 @@ std::string options_of(const Task& task) {
 
 }  // namespace
 
-std::string item_key(const std::string& model_bytes, const Task& task, SkeletonFormat format,
+std::string item_key(std::string_view model_bytes, const Task& task, SkeletonFormat format,
                      const std::string& backend) {
     const std::string all = fmt::format(
         "{:016x} {} {} {} {} {} {} {}", XXH3_64bits(model_bytes.data(), model_bytes.size()),

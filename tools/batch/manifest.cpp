@@ -143,8 +143,8 @@ std::vector<Entry> read_manifest(const std::string& path, bool recursive) {
     std::error_code unknown;
     if (path != "-" && fs::is_directory(path, unknown)) return entries_of_folder(path, recursive);
     if (is_model(path)) return {{path, "", {}}};
-    const std::string file = read_input_file(path, "a manifest");
-    std::string_view text = file;
+    const FileBytes file = read_input_file(path, "a manifest");
+    std::string_view text = file.text();
     if (text.starts_with(kByteOrderMark)) text.remove_prefix(kByteOrderMark.size());
     const std::string name = lower_case(path);
     if (name.ends_with(".csv")) return entries_of_csv(text, path);

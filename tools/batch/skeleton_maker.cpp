@@ -112,7 +112,8 @@ void SkeletonMaker::work(const Request& request, const std::function<void(const 
     const SkeletonFormat format =
         task_.format ? *task_.format : skeleton_format_of_path(request.output);
     record.backend = resolved_backend(request.model);
-    record.key = item_key(read_input_file(request.model, "a model"), task_, format, record.backend);
+    record.key =
+        item_key(read_input_file(request.model, "a model").text(), task_, format, record.backend);
     begun(record);
     if (still_holds(request, record)) {
         record.status = Status::Skipped;

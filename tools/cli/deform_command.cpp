@@ -196,8 +196,8 @@ ExitCode deform_model(const Arguments& given, const Common& common) {
     check_outputs(arguments.pose, outputs);
     check_extension(arguments.strip, ".png");
 
-    const std::string pose_text =
-        is_demo ? std::string(demo->pose) : read_input_file(arguments.pose, "a pose (JSON)");
+    const std::string pose_text(is_demo ? demo->pose
+                                        : read_input_file(arguments.pose, "a pose (JSON)").text());
     std::unique_ptr<gl::Context> picture_context;
     if (!arguments.strip.empty()) picture_context = open_picture_context();
     Posed posed;

@@ -106,7 +106,7 @@ std::vector<Shape> shapes_in(const std::string& folder, const Arguments& argumen
 // A folder of skeletons, or what --store wrote of one.
 std::vector<Shape> indexed_shapes(const Arguments& arguments) {
     if (std::filesystem::is_regular_file(arguments.index))
-        return read_signatures(read_input_file(arguments.index, "an index of shapes"),
+        return read_signatures(read_input_file(arguments.index, "an index of shapes").text(),
                                arguments.index);
     return shapes_in(arguments.index, arguments);
 }

@@ -49,7 +49,7 @@ struct Arguments {
 
 // The file that a skeleton's JSON names, which lies where that says.
 std::string maps_file_of(const std::string& path) {
-    const nlohmann::json data = parse_json(read_input_file(path, "a skeleton (JSON)"), path);
+    const nlohmann::json data = parse_json(read_input_file(path, "a skeleton (JSON)").text(), path);
     const JsonPlace place(data, path);
     if (!place.has("visibility_maps")) {
         throw InputError(fmt::format(
@@ -192,7 +192,7 @@ ExitCode reconstruct(const Arguments& arguments, const Common& common) {
         const std::string file = from_json ? maps_file_of(arguments.input) : arguments.input;
         if (arguments.has_map_px)
             throw UsageError("--map-px goes with a model; maps have the texels that they have");
-        maps = read_visibility_maps(read_input_file(file, "visibility maps"), file);
+        maps = read_visibility_maps(read_input_file(file, "visibility maps").text(), file);
         if (from_json) check_maps_of(read_skeleton(arguments.input).graph, maps, file);
         if (!arguments.original.empty()) original = read_mesh(arguments.original, common.reading);
     } else {

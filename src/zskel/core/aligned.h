@@ -2,11 +2,13 @@
 
 #include <cstddef>
 #include <new>
+#include <utility>
 #include <vector>
 
 namespace zskel {
 
-/// Hands out memory that whole SIMD registers can be loaded from.
+/// Hands out memory that whole SIMD registers can be loaded from. Elements without values are left
+/// as the memory is, not filled with zeros.
 template <typename T>
 struct CacheLineAllocator {
     using value_type = T;
@@ -18,6 +20,13 @@ struct CacheLineAllocator {
 
     T* allocate(std::size_t count) {
         return static_cast<T*>(::operator new(count * sizeof(T), kAlignment));
+    }
+    template <typename U, typename... Values>
+    void construct(U* memory, Values&&... values) {
+        if constexpr (sizeof...(Values) == 0)
+            ::new (static_cast<void*>(memory)) U;
+        else
+            ::new (static_cast<void*>(memory)) U(std::forward<Values>(values)...);
     }
     void deallocate(T* memory, std::size_t /*count*/) { ::operator delete(memory, kAlignment); }
 

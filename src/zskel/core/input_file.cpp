@@ -7,6 +7,7 @@
 #include <cstring>
 #include <filesystem>
 #include <memory>
+#include <utility>
 
 #include "zskel/core/error.h"
 
@@ -35,20 +36,22 @@ std::size_t first_read_size(const std::string& path) {
 
 }  // namespace
 
-std::string read_input_file(const std::string& path, std::string_view expected) {
+FileBytes read_input_file(const std::string& path, std::string_view expected) {
     const bool standard_input = path == "-";
     const std::unique_ptr<std::FILE, CloseFile> file(
         standard_input ? stdin : std::fopen(path.c_str(), "rb"));
     if (!file) fail_reading(path, errno, expected);
-    std::string bytes(standard_input ? kFirstRead : first_read_size(path), '\0');
-    std::size_t filled = 0;
+    std::size_t room = standard_input ? kFirstRead : first_read_size(path);
+    FileBytes bytes{std::make_unique_for_overwrite<char[]>(room)};
     while (true) {
-        filled += std::fread(bytes.data() + filled, 1, bytes.size() - filled, file.get());
-        if (filled < bytes.size()) break;
-        bytes.resize(bytes.size() * 2);
+        bytes.size += std::fread(bytes.data.get() + bytes.size, 1, room - bytes.size, file.get());
+        if (bytes.size < room) break;
+        room *= 2;
+        auto larger = std::make_unique_for_overwrite<char[]>(room);
+        std::memcpy(larger.get(), bytes.data.get(), bytes.size);
+        bytes.data = std::move(larger);
     }
     if (std::ferror(file.get()) != 0) fail_reading(path, errno, expected);
-    bytes.resize(filled);
     return bytes;
 }
 

@@ -128,7 +128,7 @@ std::string write_skeleton(const SkeletonGraph& graph, SkeletonFormat format,
 
 SkeletonFile read_skeleton(const std::string& path, std::optional<SkeletonFormat> format) {
     const SkeletonFormat taken = format ? *format : skeleton_format_of_path(path);
-    return parse_skeleton(read_input_file(path, "a skeleton"), taken, path);
+    return parse_skeleton(read_input_file(path, "a skeleton").text(), taken, path);
 }
 
 SkeletonFile parse_skeleton(std::string_view bytes, SkeletonFormat format,

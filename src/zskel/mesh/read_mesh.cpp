@@ -70,10 +70,10 @@ MeshFormat format_of_content(std::string_view bytes, const std::string& name) {
 }  // namespace
 
 Mesh read_mesh(const std::string& path, const ReadOptions& options) try {
-    const std::string bytes = read_input_file(path, fmt::format("an {} file", kForms));
+    const FileBytes bytes = read_input_file(path, fmt::format("an {} file", kForms));
     std::optional<MeshFormat> format = format_of_extension(path);
-    if (!format) format = format_of_content(bytes, path);
-    return parse_mesh(std::as_bytes(std::span(bytes)), *format, path, options);
+    if (!format) format = format_of_content(bytes.text(), path);
+    return parse_mesh(std::as_bytes(std::span(bytes.text())), *format, path, options);
 } catch (const std::bad_alloc&) {
     throw MemoryError(fmt::format("{}: the model takes more memory than there is", path));
 } catch (const std::length_error&) {

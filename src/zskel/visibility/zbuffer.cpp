@@ -39,7 +39,7 @@ TexelGrid::TexelGrid(int px)
 }
 
 ZBuffer::ZBuffer(const TexelGrid& grid)
-    : inverse_depth(6 * static_cast<std::size_t>(grid.face_px) * grid.stride),
-      id(inverse_depth.size()) {}
+    : inverse_depth(6 * static_cast<std::size_t>(grid.face_px) * grid.stride, 0.0f),
+      id(inverse_depth.size(), 0u) {}
 
 }  // namespace zskel
