@@ -6,7 +6,9 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <queue>
+#include <unordered_map>
 #include <utility>
 
 #include "zskel/core/disjoint_sets.h"
@@ -16,16 +18,19 @@
 namespace zskel {
 namespace {
 
-// The triangles on both sides of every edge: `left` runs along it from the low to the high vertex.
+// The triangles on both sides of an edge: `left` runs along it from the low to the high vertex.
+struct EdgeTriangles {
+    std::uint32_t left = kNone;
+    std::uint32_t right = kNone;
+};
+
 struct EdgeSides {
-    std::vector<std::uint32_t> left;
-    std::vector<std::uint32_t> right;
+    std::vector<EdgeTriangles> of_edge;
     std::vector<std::array<std::uint32_t, 3>> triangle_edges;
 };
 
 bool find_sides(const Surface& surface, EdgeSides& sides) {
-    sides.left.assign(surface.edges.size(), kNone);
-    sides.right.assign(surface.edges.size(), kNone);
+    sides.of_edge.assign(surface.edges.size(), {});
     sides.triangle_edges.resize(surface.triangles.size());
     const std::vector<Side> all = sorted_sides(surface.triangles, surface.positions.size());
     std::uint32_t e = 0;
@@ -34,7 +39,8 @@ bool find_sides(const Surface& surface, EdgeSides& sides) {
         is_manifold =
             is_manifold && last - first == 2 && all[first].is_forward != all[first + 1].is_forward;
         for (std::size_t i = first; i < last; ++i) {
-            (all[i].is_forward ? sides.left[e] : sides.right[e]) = all[i].triangle;
+            EdgeTriangles& both = sides.of_edge[e];
+            (all[i].is_forward ? both.left : both.right) = all[i].triangle;
             sides.triangle_edges[all[i].triangle][all[i].corner] = e;
         }
         ++e;
@@ -98,23 +104,22 @@ PathTree grow_paths(const Surface& surface, const VertexGraph& graph) {
 // would close the longest loops; the edges that are left close the 2g shortest.
 std::vector<std::uint32_t> loop_edges(const Surface& surface, const EdgeSides& sides,
                                       const PathTree& tree, std::vector<bool>& is_dual_edge) {
-    std::vector<std::uint32_t> order;
+    // Lengths are not negative, so that their bits are in their order; equal ones by their numbers.
+    std::vector<std::uint64_t> order;
     for (std::uint32_t e = 0; e < surface.edges.size(); ++e) {
-        if (!tree.is_tree_edge[e]) order.push_back(e);
-    }
-    std::vector<float> loop_length(surface.edges.size());
-    for (const std::uint32_t e : order) {
+        if (tree.is_tree_edge[e]) continue;
         const glm::uvec2& edge = surface.edges[e];
-        loop_length[e] = tree.distance[edge.x] + tree.distance[edge.y] +
-                         glm::distance(surface.positions[edge.x], surface.positions[edge.y]);
+        const float length = tree.distance[edge.x] + tree.distance[edge.y] +
+                             glm::distance(surface.positions[edge.x], surface.positions[edge.y]);
+        order.push_back(std::uint64_t{~std::bit_cast<std::uint32_t>(length)} << 32 | e);
     }
-    std::stable_sort(order.begin(), order.end(),
-                     [&](auto l, auto r) { return loop_length[l] > loop_length[r]; });
+    std::sort(order.begin(), order.end());
     DisjointSets sets(surface.triangles.size());
     is_dual_edge.assign(surface.edges.size(), false);
     std::vector<std::uint32_t> left;
-    for (const std::uint32_t e : order) {
-        if (sets.unite(sides.left[e], sides.right[e])) {
+    for (const std::uint64_t entry : order) {
+        const auto e = static_cast<std::uint32_t>(entry);
+        if (sets.unite(sides.of_edge[e].left, sides.of_edge[e].right)) {
             is_dual_edge[e] = true;
         } else {
             left.push_back(e);
@@ -137,10 +142,13 @@ class SpanFinder {
                const std::vector<std::uint32_t>& closing, LoopSystem& out)
         : sides_(sides),
           is_dual_edge_(is_dual_edge),
-          loop_of_edge_(is_dual_edge.size(), kNone),
+          is_closing_(is_dual_edge.size(), false),
           is_met_(sides.triangle_edges.size(), false),
           out_(out) {
-        for (std::uint32_t i = 0; i < closing.size(); ++i) loop_of_edge_[closing[i]] = i;
+        for (std::uint32_t i = 0; i < closing.size(); ++i) {
+            is_closing_[closing[i]] = true;
+            loop_of_edge_.emplace(closing[i], i);
+        }
         out_.edge_span.assign(is_dual_edge.size(), glm::uvec2(0));
     }
 
@@ -172,9 +180,10 @@ class SpanFinder {
             }
             const std::uint32_t t = step.triangle;
             const std::uint32_t e = sides_.triangle_edges[t][step.next++];
-            if (loop_of_edge_[e] != kNone) add_side(e, sides_.left[e] == t);
+            if (is_closing_[e]) add_side(e, sides_.of_edge[e].left == t);
             if (!is_dual_edge_[e] || e == step.from_edge) continue;
-            const std::uint32_t other = sides_.left[e] == t ? sides_.right[e] : sides_.left[e];
+            const EdgeTriangles& both = sides_.of_edge[e];
+            const std::uint32_t other = both.left == t ? both.right : both.left;
             is_met_[other] = true;
             stack.push_back({other, e, side_count()});
         }
@@ -182,18 +191,19 @@ class SpanFinder {
 
     void add_side(std::uint32_t edge, bool is_left) {
         if (is_left) out_.edge_span[edge] = {side_count(), side_count() + 1};
-        out_.sides.push_back({loop_of_edge_[edge], is_left ? 1 : -1});
+        out_.sides.push_back({loop_of_edge_.at(edge), is_left ? 1 : -1});
     }
 
     void close(const Step& step) {
-        const bool is_left = sides_.left[step.from_edge] == step.triangle;
+        const bool is_left = sides_.of_edge[step.from_edge].left == step.triangle;
         out_.edge_span[step.from_edge] = is_left ? glm::uvec2(side_count(), step.first_side)
                                                  : glm::uvec2(step.first_side, side_count());
     }
 
     const EdgeSides& sides_;
     const std::vector<bool>& is_dual_edge_;
-    std::vector<std::uint32_t> loop_of_edge_;
+    std::vector<bool> is_closing_;
+    std::unordered_map<std::uint32_t, std::uint32_t> loop_of_edge_;
     std::vector<bool> is_met_;
     LoopSystem& out_;
 };
