@@ -212,6 +212,31 @@ void cut_sides(WeldedMesh& mesh, const std::vector<std::uint32_t>& middle) {
     }
 }
 
+// Pairs of an edge whose fans are the same at both ends would go on being one edge: each gets a
+// middle of its own. Of every side, as cut_sides takes it.
+std::vector<std::uint32_t> middles_of_alike(WeldedMesh& mesh, const Patches& patches,
+                                            const std::vector<SidePairs>& paired,
+                                            DisjointSets& fans) {
+    std::vector<std::uint32_t> middle(mesh.triangles.size() * 3, kNone);
+    const auto ends_of = [&](const Side& side) {
+        return std::pair(fans.find(side.low_corner()), fans.find(side.high_corner()));
+    };
+    for (const SidePairs& pairs : paired) {
+        std::map<std::pair<std::uint32_t, std::uint32_t>, int> alike;
+        for (const auto& pair : pairs) ++alike[ends_of(patches.sides[pair.first])];
+        for (const auto& [i, k] : pairs) {
+            const Side& one = patches.sides[i];
+            const Side& other = patches.sides[k];
+            if (alike[ends_of(one)] == 1) continue;
+            const DVec3 there = 0.5 * mesh.positions[one.edge.x] + 0.5 * mesh.positions[one.edge.y];
+            const std::uint32_t place = add_place(mesh, there, mesh.vertex[one.edge.x]);
+            middle[3 * one.triangle + one.corner] = place;
+            middle[3 * other.triangle + other.corner] = place;
+        }
+    }
+    return middle;
+}
+
 // Gives each fan of triangles at the crowded edges' places a place of its own; the number of edges
 // that were paired.
 std::size_t part_pairs(WeldedMesh& mesh) {
@@ -234,25 +259,7 @@ std::size_t part_pairs(WeldedMesh& mesh) {
         is_at_crowd[patches.sides[first].edge.x] = true;
         is_at_crowd[patches.sides[first].edge.y] = true;
     });
-    // Pairs whose fans are the same at both ends would go on being one edge: each gets a middle of
-    // its own.
-    std::vector<std::uint32_t> middle(mesh.triangles.size() * 3, kNone);
-    for (const SidePairs& pairs : paired) {
-        std::map<std::pair<std::uint32_t, std::uint32_t>, int> alike;
-        const auto ends_of = [&](const Side& side) {
-            return std::pair(fans.find(side.low_corner()), fans.find(side.high_corner()));
-        };
-        for (const auto& pair : pairs) ++alike[ends_of(patches.sides[pair.first])];
-        for (const auto& [i, k] : pairs) {
-            const Side& one = patches.sides[i];
-            const Side& other = patches.sides[k];
-            if (alike[ends_of(one)] == 1) continue;
-            const DVec3 there = 0.5 * (mesh.positions[one.edge.x] + mesh.positions[one.edge.y]);
-            const std::uint32_t place = add_place(mesh, there, mesh.vertex[one.edge.x]);
-            middle[3 * one.triangle + one.corner] = place;
-            middle[3 * other.triangle + other.corner] = place;
-        }
-    }
+    const std::vector<std::uint32_t> middle = middles_of_alike(mesh, patches, paired, fans);
     std::vector<bool> is_taken(is_at_crowd.size(), false);
     std::vector<std::uint32_t> of_fan(mesh.triangles.size() * 3, kNone);
     for (std::uint32_t corner = 0; corner < of_fan.size(); ++corner) {
