@@ -2,7 +2,6 @@
 
 #include <cstddef>
 #include <new>
-#include <utility>
 #include <vector>
 
 namespace zskel {
@@ -21,12 +20,9 @@ struct CacheLineAllocator {
     T* allocate(std::size_t count) {
         return static_cast<T*>(::operator new(count * sizeof(T), kAlignment));
     }
-    template <typename U, typename... Values>
-    void construct(U* memory, Values&&... values) {
-        if constexpr (sizeof...(Values) == 0)
-            ::new (static_cast<void*>(memory)) U;
-        else
-            ::new (static_cast<void*>(memory)) U(std::forward<Values>(values)...);
+    template <typename U>
+    void construct(U* memory) {
+        ::new (static_cast<void*>(memory)) U;
     }
     void deallocate(T* memory, std::size_t /*count*/) { ::operator delete(memory, kAlignment); }
 
