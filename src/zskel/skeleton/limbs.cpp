@@ -7,6 +7,7 @@
 #include <queue>
 #include <utility>
 
+#include "zskel/skeleton/core.h"
 #include "zskel/skeleton/coverage.h"
 #include "zskel/skeleton/far_patches.h"
 #include "zskel/skeleton/girth.h"
@@ -30,12 +31,6 @@ constexpr float kUnfreeCost = 1e3f;        // of connections that could not be l
 constexpr float kAsThick = 0.98f;
 constexpr float kAsThickAlone = 0.95f;
 
-struct Arc {
-    std::uint32_t to;
-    std::uint32_t connection;
-};
-using Arcs = std::vector<std::vector<Arc>>;
-
 std::vector<std::uint32_t> all_of(std::span<const Connection> connections) {
     std::vector<std::uint32_t> numbers(connections.size());
     std::iota(numbers.begin(), numbers.end(), 0u);
@@ -46,16 +41,6 @@ double median(std::vector<float>& numbers) {
     const auto middle = numbers.begin() + static_cast<std::ptrdiff_t>(numbers.size() / 2);
     std::nth_element(numbers.begin(), middle, numbers.end());
     return static_cast<double>(*middle);
-}
-
-Arcs arcs_of(std::span<const Connection> connections, std::span<const std::uint32_t> numbers,
-             std::size_t clusters) {
-    Arcs arcs(clusters);
-    for (const std::uint32_t i : numbers) {
-        arcs[connections[i].a].push_back({connections[i].b, i});
-        arcs[connections[i].b].push_back({connections[i].a, i});
-    }
-    return arcs;
 }
 
 // Of some clusters the thickest; of several as thick, as a plate has, the one in their middle.
@@ -98,27 +83,6 @@ std::vector<bool> thickest_of(const Arcs& arcs, std::span<const float> girths,
     return is_thickest;
 }
 
-// Which clusters are left when dead ends are taken off, but for the roots.
-std::vector<bool> core_of(const Arcs& arcs, const std::vector<bool>& is_root) {
-    std::vector<bool> is_left(arcs.size(), true);
-    std::vector<std::size_t> degree(arcs.size());
-    std::vector<std::uint32_t> loose;
-    for (std::uint32_t c = 0; c < arcs.size(); ++c) {
-        degree[c] = arcs[c].size();
-        if (degree[c] <= 1 && !is_root[c]) loose.push_back(c);
-    }
-    while (!loose.empty()) {
-        const std::uint32_t c = loose.back();
-        loose.pop_back();
-        is_left[c] = false;
-        for (const Arc& arc : arcs[c]) {
-            if (is_left[arc.to] && --degree[arc.to] == 1 && !is_root[arc.to])
-                loose.push_back(arc.to);
-        }
-    }
-    return is_left;
-}
-
 class LimbGrower {
   public:
     LimbGrower(const ClusterContext& context, const ClusterNetwork& network,
@@ -126,15 +90,15 @@ class LimbGrower {
         : context_(context),
           connections_(network.connections),
           centers_(context.clusters.centers),
-          girths_(girths_at(context.query, context.clusters.centers)),
+          girths_(context.girths),
           options_(options),
           arcs_(arcs_of(connections_, all_of(connections_), girths_.size())),
           ways_(girths_.size()),
           coverage_(seed_coverage(context)),
           is_tried_(context.spread.vertices.size(), false) {}
 
-    Limbs run(std::span<const std::uint32_t> spanning) {
-        keep_core(spanning);
+    Limbs run(const ClusterNetwork& network) {
+        keep_core(network);
         for (std::uint32_t seed = farthest_out(); seed != kNone; seed = farthest_out())
             try_limb(seed);
         grow_fat_ends();
@@ -171,18 +135,18 @@ class LimbGrower {
         return {context.query, std::move(places), std::move(inside)};
     }
 
-    // The cycles of the network, and what joins them; its thickest cluster where there are none.
-    void keep_core(std::span<const std::uint32_t> spanning) {
-        const Arcs arcs = arcs_of(connections_, spanning, girths_.size());
-        const std::vector<bool> is_core = core_of(arcs, thickest_of(arcs, girths_, centers_));
+    // The cycles of the network, and what joins them; the thickest cluster of parts without any.
+    void keep_core(const ClusterNetwork& network) {
+        const Arcs spanning = arcs_of(connections_, network.spanning, girths_.size());
+        std::vector<bool> is_core = thickest_of(spanning, girths_, centers_);
+        for (const std::uint32_t i : network.core)
+            is_core[connections_[i].a] = is_core[connections_[i].b] = true;
         std::vector<std::uint32_t> core;
         for (std::uint32_t c = 0; c < girths_.size(); ++c) {
             if (is_core[c]) core.push_back(c);
         }
         keep(core);
-        for (const std::uint32_t i : spanning) {
-            if (is_core[connections_[i].a] && is_core[connections_[i].b]) keep_connection(i);
-        }
+        for (const std::uint32_t i : network.core) keep_connection(i);
     }
 
     // A plate's one node stands in its middle.
@@ -490,7 +454,7 @@ class LimbGrower {
     const ClusterContext& context_;
     std::span<const Connection> connections_;
     std::span<const Vec3> centers_;
-    std::vector<float> girths_;
+    std::span<const float> girths_;
     const LimbOptions& options_;
     Arcs arcs_;
     std::vector<Way> ways_;
@@ -503,7 +467,7 @@ class LimbGrower {
 
 Limbs grow_limbs(const ClusterContext& context, const ClusterNetwork& network,
                  const LimbOptions& options) {
-    return LimbGrower(context, network, options).run(network.spanning);
+    return LimbGrower(context, network, options).run(network);
 }
 
 }  // namespace zskel

@@ -9,6 +9,7 @@
 
 #include "zskel/core/disjoint_sets.h"
 #include "zskel/core/parallel.h"
+#include "zskel/skeleton/core.h"
 #include "zskel/skeleton/path.h"
 #include "zskel/skeleton/shell_bridges.h"
 
@@ -20,7 +21,6 @@ using Class = HandleClasses::Class;
 struct Candidate {
     Connection connection;
     std::uint32_t edge = 0;  // from vertex_a to vertex_b
-    std::uint64_t sum = 0;   // of the walk from centre to centre over it
 };
 
 void add_to(Class& sum, const Class& other, std::int64_t sign) {
@@ -40,22 +40,14 @@ class Connector {
     ClusterNetwork run() {
         ClusterNetwork out;
         DisjointSets sets(context_.clusters.centers.size());
-        tree_.assign(context_.clusters.centers.size(), {});
-        std::vector<std::uint32_t> others;
-        for (const std::uint32_t i : order()) {
-            const Connection& c = candidates_[i].connection;
-            if (!sets.unite(c.a, c.b)) {
-                others.push_back(i);
-                continue;
-            }
-            out.spanning.push_back(i);
-            tree_[c.a].push_back({c.b, i, 1});
-            tree_[c.b].push_back({c.a, i, -1});
-        }
+        const std::vector<std::uint32_t> others = add_tree(order(), sets, out.spanning);
         out.has_all_cycles = add_cycles(others, out.spanning);
-        for (Candidate& candidate : candidates_)
-            out.connections.push_back(std::move(candidate.connection));
+        for (const Candidate& candidate : candidates_)
+            out.connections.push_back(candidate.connection);
         bridge_shells(context_, sets, out);
+        for (std::size_t i = candidates_.size(); i < out.connections.size(); ++i)
+            out.connections[i].sum = walks_.sum_of(out.connections[i].path);
+        out.core = core_in(out);
         return out;
     }
 
@@ -95,7 +87,7 @@ class Connector {
             if (a == b && sum == 0) continue;
             const std::uint64_t key = a == b ? std::min(sum, 0 - sum) : sum;
             if (!known.emplace(a, b, key).second) continue;
-            candidates_.push_back({{a, b, v, w, {}, 0.0f, true}, e, sum});
+            candidates_.push_back({{a, b, v, w, {}, 0.0f, true, sum}, e});
         }
     }
 
@@ -104,9 +96,9 @@ class Connector {
     void lay_path(Candidate& candidate) const {
         Connection& c = candidate.connection;
         c.path = {context_.clusters.centers[c.a], context_.clusters.centers[c.b]};
-        if (c.a == c.b || !is_way(c.path, candidate.sum) || !is_free(c.path, context_.query)) {
+        if (c.a == c.b || !is_way(c.path, c.sum) || !is_free(c.path, context_.query)) {
             c.path = joined(walks_.short_way_to(c.vertex_a), walks_.short_way_to(c.vertex_b));
-            const bool is_short = is_way(c.path, candidate.sum) && tighten(c);
+            const bool is_short = is_way(c.path, c.sum) && tighten(c);
             if (!is_short) {
                 c.path = joined(walks_.walk_to(c.vertex_a), walks_.walk_to(c.vertex_b));
                 c.is_inside = tighten(c);
@@ -164,26 +156,35 @@ class Connector {
         return false;
     }
 
-    void walk_tree() {
-        places_.assign(tree_.size(), {});
-        for (std::uint32_t root = 0; root < tree_.size(); ++root) {
-            if (places_[root].parent != kNone) continue;
-            places_[root].parent = root;
-            places_[root].cls = handles_.zero();
+    std::vector<Place> walk_tree(const std::vector<std::uint32_t>& tree) const {
+        std::vector<std::vector<TreeLink>> links(context_.clusters.centers.size());
+        for (const std::uint32_t i : tree) {
+            const Connection& c = candidates_[i].connection;
+            links[c.a].push_back({c.b, i, 1});
+            links[c.b].push_back({c.a, i, -1});
+        }
+        std::vector<Place> places(links.size());
+        for (std::uint32_t root = 0; root < links.size(); ++root) {
+            if (places[root].parent != kNone) continue;
+            places[root].parent = root;
+            places[root].cls = handles_.zero();
             std::vector<std::uint32_t> queue{root};
             for (std::size_t i = 0; i < queue.size(); ++i) {
-                const Place& here = places_[queue[i]];
-                for (const TreeLink& link : tree_[queue[i]]) {
-                    if (places_[link.cluster].parent != kNone) continue;
+                const Place& here = places[queue[i]];
+                for (const TreeLink& link : links[queue[i]]) {
+                    if (places[link.cluster].parent != kNone) continue;
                     const Candidate& by = candidates_[link.candidate];
-                    Place& next = places_[link.cluster];
-                    next = {queue[i], here.depth + 1, here.reach + by.connection.length,
-                            link.sign > 0 ? here.sum + by.sum : here.sum - by.sum, here.cls};
+                    Place& next = places[link.cluster];
+                    next = {
+                        queue[i], here.depth + 1, here.reach + by.connection.length,
+                        link.sign > 0 ? here.sum + by.connection.sum : here.sum - by.connection.sum,
+                        here.cls};
                     add_to(next.cls, class_of(by), link.sign);
                     queue.push_back(link.cluster);
                 }
             }
         }
+        return places;
     }
 
     std::uint32_t meeting(std::uint32_t a, std::uint32_t b) const {
@@ -194,13 +195,25 @@ class Connector {
         return a;
     }
 
+    // Adds those that join sets; the rest is left over.
+    std::vector<std::uint32_t> add_tree(const std::vector<std::uint32_t>& candidates,
+                                        DisjointSets& sets,
+                                        std::vector<std::uint32_t>& tree) const {
+        std::vector<std::uint32_t> others;
+        for (const std::uint32_t i : candidates) {
+            const Connection& c = candidates_[i].connection;
+            (sets.unite(c.a, c.b) ? tree : others).push_back(i);
+        }
+        return others;
+    }
+
     // All that could be laid inside, shortest first.
     std::vector<Cycle> find_cycles(const std::vector<std::uint32_t>& others) const {
         std::vector<Cycle> cycles;
         for (const std::uint32_t i : others) {
             const Connection& c = candidates_[i].connection;
             if (!c.is_inside) continue;
-            const std::uint64_t sum = candidates_[i].sum + places_[c.a].sum - places_[c.b].sum;
+            const std::uint64_t sum = c.sum + places_[c.a].sum - places_[c.b].sum;
             const float length = c.length + places_[c.a].reach + places_[c.b].reach -
                                  2.0f * places_[meeting(c.a, c.b)].reach;
             cycles.push_back({i, length, std::min(sum, 0 - sum)});
@@ -210,12 +223,20 @@ class Connector {
         return cycles;
     }
 
+    // Of the cycle that a candidate closes over the tree.
+    Class cycle_class(std::uint32_t i) const {
+        Class cls = class_of(candidates_[i]);
+        add_to(cls, places_[candidates_[i].connection.a].cls, 1);
+        add_to(cls, places_[candidates_[i].connection.b].cls, -1);
+        return cls;
+    }
+
     // Of each class only the shortest need be looked at. Where the surface cuts through itself, the
     // sums may not tell classes apart: then all are.
     bool add_cycles(const std::vector<std::uint32_t>& others,
                     std::vector<std::uint32_t>& spanning) {
         if (handles_.cycles() == 0) return true;
-        walk_tree();
+        places_ = walk_tree(spanning);
         CycleBasis basis(handles_);
         const std::vector<Cycle> cycles = find_cycles(others);
         std::set<std::uint64_t> known{0};
@@ -223,22 +244,41 @@ class Connector {
             for (const Cycle& cycle : cycles) {
                 if (basis.is_complete()) return true;
                 if (trusts_sums && !known.insert(cycle.sum).second) continue;
-                const Candidate& candidate = candidates_[cycle.candidate];
-                Class cls = class_of(candidate);
-                add_to(cls, places_[candidate.connection.a].cls, 1);
-                add_to(cls, places_[candidate.connection.b].cls, -1);
-                if (basis.extend(cls)) spanning.push_back(cycle.candidate);
+                if (basis.extend(cycle_class(cycle.candidate))) spanning.push_back(cycle.candidate);
             }
         }
         return basis.is_complete();
+    }
+
+    std::vector<std::uint32_t> core_in(const ClusterNetwork& network) {
+        if (handles_.cycles() == 0) return {};
+        const std::size_t clusters = context_.clusters.centers.size();
+        std::vector<std::uint32_t> core = core_of(network.connections, network.spanning, clusters);
+        if (!network.has_all_cycles) return core;
+        std::vector<std::uint32_t> laid =
+            lay_core(context_.query, context_.girths, network.connections, core);
+        return has_all_cycles(laid) ? laid : core;
+    }
+
+    // Asks the classes themselves, of which the sums that cycles are laid by may tell too little.
+    // Bridges between shells are in no cycle.
+    bool has_all_cycles(std::vector<std::uint32_t> core) {
+        std::erase_if(core, [&](std::uint32_t i) { return i >= candidates_.size(); });
+        DisjointSets sets(context_.clusters.centers.size());
+        std::vector<std::uint32_t> tree;
+        const std::vector<std::uint32_t> others = add_tree(core, sets, tree);
+        places_ = walk_tree(tree);
+        CycleBasis basis(handles_);
+        return std::ranges::all_of(others,
+                                   [&](std::uint32_t i) { return basis.extend(cycle_class(i)); }) &&
+               basis.is_complete();
     }
 
     const ClusterContext& context_;
     const HandleClasses& handles_;
     SurfaceWalks walks_;
     std::vector<Candidate> candidates_;
-    std::vector<std::vector<TreeLink>> tree_;
-    std::vector<Place> places_;
+    std::vector<Place> places_;  // in the tree that cycles are closed over
 };
 
 }  // namespace

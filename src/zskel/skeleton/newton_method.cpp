@@ -6,6 +6,7 @@
 #include "zskel/core/free_memory.h"
 #include "zskel/core/parallel.h"
 #include "zskel/skeleton/connect.h"
+#include "zskel/skeleton/girth.h"
 #include "zskel/skeleton/method.h"
 #include "zskel/skeleton/network.h"
 #include "zskel/skeleton/patches.h"
@@ -160,8 +161,9 @@ SolidSkeleton extract_by_newton(
     for (int attempt = 0;; ++attempt) {
         Clusters clusters = cluster_minima(ends, joints, ranges);
         center_on_members(clusters, ends);
+        const std::vector<float> girths = girths_at(query, clusters.centers);
         const ClusterContext context{surface, query,     spread,   out.settled, inner,
-                                     links,   shortcuts, clusters, is_closed};
+                                     links,   shortcuts, clusters, girths,      is_closed};
         const ClusterNetwork network = connect_network(context, handles);
         if (attempt < options.max_retries && split_rings(network, clusters, ranges)) continue;
         if (!network.has_all_cycles)

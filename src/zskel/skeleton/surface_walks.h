@@ -25,8 +25,9 @@ struct ClusterContext {
     std::span<const Vec3> inner;           ///< a point inside near every vertex
     std::span<const glm::uvec2> links;     ///< pairs of seeds whose patches meet
     std::span<const Shortcut> shortcuts;
-    const Clusters& clusters;  ///< of seeds; centres are end points of seeds
-    bool is_closed = true;     ///< the solid: then nothing of the skeleton may leave it
+    const Clusters& clusters;       ///< of seeds; centres are end points of seeds
+    std::span<const float> girths;  ///< at the centres, see `girths_at`
+    bool is_closed = true;          ///< the solid: then nothing of the skeleton may leave it
 };
 
 /// For every vertex a walk to it from the centre of its cluster, and what the walk counts for in
