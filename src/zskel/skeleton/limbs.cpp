@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <functional>
 #include <numeric>
 #include <queue>
@@ -37,10 +38,15 @@ std::vector<std::uint32_t> all_of(std::span<const Connection> connections) {
     return numbers;
 }
 
-double median(std::vector<float>& numbers) {
+float median(std::vector<float> numbers) {
     const auto middle = numbers.begin() + static_cast<std::ptrdiff_t>(numbers.size() / 2);
     std::nth_element(numbers.begin(), middle, numbers.end());
-    return static_cast<double>(*middle);
+    return *middle;
+}
+
+double mean(const std::vector<float>& numbers) {
+    return std::accumulate(numbers.begin(), numbers.end(), 0.0) /
+           static_cast<double>(numbers.size());
 }
 
 // Of some clusters the thickest; of several as thick, as a plate has, the one in their middle.
@@ -359,31 +365,34 @@ class LimbGrower {
     bool is_limb(const Limb& limb, double out) const {
         const Outside outside = outside_of(limb);
         if (outside.places.empty()) return false;
-        std::vector<float> girths = girths_at(context_.query, outside.places);
-        const double mean =
-            std::accumulate(girths.begin(), girths.end(), 0.0) / static_cast<double>(girths.size());
-        if (!(mean > 0.0) || is_strip_of_sheet(outside, girths)) return false;
-        const double own = out / mean / options_.detail;
+        const std::vector<float> girths = girths_at(context_.query, outside.places);
+        std::vector<float> widths;
+        std::vector<float> sizes;  // radii of circles as large as the sections
+        for (std::size_t i = 0; i < outside.places.size(); ++i) {
+            widths.push_back(
+                section_half_width(context_.query, outside.places[i], outside.inwards[i]));
+            sizes.push_back(std::sqrt(girths[i] * std::max(girths[i], widths[i])));
+        }
+        const double girth = mean(girths);
+        if (!(girth > 0.0) || is_strip_of_sheet(outside.length, median(girths), median(widths)))
+            return false;
+        const double own = out / girth / options_.detail;
         const double of_body = out / static_cast<double>(outside.body_girth) / options_.detail;
+        const double of_size = out / mean(sizes) / options_.detail;
         const bool is_bare = !limb.tip.empty();
         return own >= options_.least_own_girths && of_body >= options_.least_body_girths &&
                own * of_body >= options_.least_product &&
-               (!is_bare || own >= options_.bare_own_girths ||
-                own * of_body >= options_.bare_product ||
+               (!is_bare || of_size >= options_.bare_own_sizes ||
+                of_size * of_body >= options_.bare_product ||
                 out >= options_.detail * options_.bare_world);
     }
 
     // Whether it runs through a sheet that is about as wide as the limb is long: any way across
     // would do as well.
-    bool is_strip_of_sheet(const Outside& outside, std::vector<float>& girths) const {
-        std::vector<float> widths;
-        for (std::size_t i = 0; i < outside.places.size(); ++i) {
-            widths.push_back(
-                section_half_width(context_.query, outside.places[i], outside.inwards[i]));
-        }
-        const double width = median(widths);
-        return width > options_.flat_girths * median(girths) &&
-               static_cast<double>(outside.length) < options_.detail * options_.flat_widths * width;
+    bool is_strip_of_sheet(float length, float girth, float width) const {
+        const auto half = static_cast<double>(width);
+        return half > options_.flat_girths * static_cast<double>(girth) &&
+               static_cast<double>(length) < options_.detail * options_.flat_widths * half;
     }
 
     // One limb changes what is far from the skeleton; what was looked at once is left alone.

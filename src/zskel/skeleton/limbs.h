@@ -16,9 +16,10 @@ struct LimbOptions {
     double least_own_girths = 1.0;   ///< this many of its own girths,
     double least_body_girths = 0.2;  ///< and of the body's,
     double least_product = 0.6;      ///< and so much by the product of the two
-    double bare_own_girths =
-        2.5;                    ///< where no seed came to rest beyond the ball: so many of its own,
-    double bare_product = 2.5;  ///< so much by the product,
+    double bare_own_sizes =
+        2.1;  ///< where no seed came to rest beyond the ball: so many radii of a circle as large as
+              ///< its section, which is flat at an ear's rim,
+    double bare_product = 2.5;  ///< so much by the product of those and the body's girths,
     double bare_world = 0.12;   ///< or as far as this
     double flat_girths = 4.5;   ///< where its section is wider than so many girths, it is part of a
     double flat_widths = 2.5;   ///< sheet: as long as so many half widths of it
