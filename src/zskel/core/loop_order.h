@@ -16,24 +16,44 @@ namespace zskel {
 /// body before another. One lives as long as the loop.
 class LoopOrder {
   public:
+    /// Lives as long as a body, also one that throws.
+    class Body {
+      public:
+        explicit Body(LoopOrder& order) : order_(order) { order_.begin_body(); }
+        ~Body() { order_.end_body(); }
+        Body(const Body&) = delete;
+        Body& operator=(const Body&) = delete;
+
+      private:
+        LoopOrder& order_;
+    };
+
 #if defined(__SANITIZE_THREAD__)
     LoopOrder() {
         __tsan_release(&fork_);
     }
+    ~LoopOrder() {
+        join();
+    }
+    /// All bodies so far come before what follows.
+    void join() {
+        __tsan_acquire(&join_);
+    }
+
+  private:
     void begin_body() {
         __tsan_acquire(&fork_);
     }
     void end_body() {
         __tsan_release(&join_);
     }
-    ~LoopOrder() {
-        __tsan_acquire(&join_);
-    }
 
-  private:
     char fork_ = 0;
     char join_ = 0;
 #else
+    void join() {}
+
+  private:
     void begin_body() {}
     void end_body() {}
 #endif

@@ -21,9 +21,8 @@ void parallel_for(std::size_t count, std::size_t grain,
         tbb::parallel_for(tbb::blocked_range<std::size_t>(0, count, grain),
                           [&](const tbb::blocked_range<std::size_t>& range)
                               ZSKEL_CALLED_BY_LIBRARY {
-                                  order.begin_body();
+                                  const LoopOrder::Body ordered(order);
                                   body(range.begin(), range.end());
-                                  order.end_body();
                               });
     } catch (const std::runtime_error& error) {
         // TBB has no type of its own for a thread whose stack there is no memory for.

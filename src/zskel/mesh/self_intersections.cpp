@@ -51,15 +51,22 @@ bool edge_passes(const Triangles& all, const Triangle& one, const Triangle& othe
     return false;
 }
 
-// Passes through Embree, which ends the search.
-struct TooManyPairs : std::exception {};
+// Passes through Embree, which ends the search, and is freed there by the caller's thread.
+class TooManyPairs : public std::exception {
+  public:
+    explicit TooManyPairs(LoopOrder& order) : order_(order) {}
+    ~TooManyPairs() override { order_.join(); }
+
+  private:
+    LoopOrder& order_;
+};
 
 // Of two triangles whose boxes meet; called by several threads at once.
 void visit_pairs(void* user, RTCCollision* pairs, unsigned count) {
     auto& all = *static_cast<Triangles*>(user);
+    const LoopOrder::Body ordered(all.order);
     const std::size_t pairs_so_far = all.pairs += count;
-    if (pairs_so_far > all.most_pairs) throw TooManyPairs();
-    all.order.begin_body();
+    if (pairs_so_far > all.most_pairs) throw TooManyPairs(all.order);
     for (unsigned i = 0; i < count; ++i) {
         const std::uint32_t a = pairs[i].primID0;
         const std::uint32_t b = pairs[i].primID1;
@@ -70,14 +77,13 @@ void visit_pairs(void* user, RTCCollision* pairs, unsigned count) {
         all.crosses[a] = true;
         all.crosses[b] = true;
     }
-    all.order.end_body();
 }
 
 // The box in floats, rounded outwards.
 void bound(const RTCBoundsFunctionArguments* arguments) {
     constexpr float kInfinity = std::numeric_limits<float>::infinity();
     auto& all = *static_cast<Triangles*>(arguments->geometryUserPtr);
-    all.order.begin_body();
+    const LoopOrder::Body ordered(all.order);
     const Triangle& t = all.triangles[arguments->primID];
     const DVec3& a = all.positions[t.x];
     const DVec3& b = all.positions[t.y];
@@ -93,7 +99,6 @@ void bound(const RTCBoundsFunctionArguments* arguments) {
     box.upper_x = up(high.x);
     box.upper_y = up(high.y);
     box.upper_z = up(high.z);
-    all.order.end_body();
 }
 
 }  // namespace
