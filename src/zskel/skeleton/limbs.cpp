@@ -174,6 +174,7 @@ class LimbGrower {
     void keep(const std::vector<std::uint32_t>& kept) {
         using Entry = std::pair<float, std::uint32_t>;
         std::priority_queue<Entry, std::vector<Entry>, std::greater<>> front;
+        kept_.insert(kept_.end(), kept.begin(), kept.end());
         for (const std::uint32_t c : kept) {
             const float trunk = ways_[c].trunk;
             ways_[c] = {c, kNone, c, kTrunkShare * trunk, 0.0f, trunk, true};
@@ -314,9 +315,8 @@ class LimbGrower {
     // The largest ball of a kept cluster about a place that its centre sees; 0 where there is none.
     float kept_girth_about(const Vec3& place) const {
         float largest = 0.0f;
-        for (std::uint32_t c = 0; c < girths_.size(); ++c) {
-            if (ways_[c].is_kept && girths_[c] > largest &&
-                glm::distance(place, centers_[c]) <= girths_[c] &&
+        for (const std::uint32_t c : kept_) {
+            if (girths_[c] > largest && glm::distance(place, centers_[c]) <= girths_[c] &&
                 is_free(std::array{place, centers_[c]}, context_.query))
                 largest = girths_[c];
         }
@@ -467,6 +467,7 @@ class LimbGrower {
     const LimbOptions& options_;
     Arcs arcs_;
     std::vector<Way> ways_;
+    std::vector<std::uint32_t> kept_;
     Coverage coverage_;  // of the seeds' places
     std::vector<bool> is_tried_;
     Limbs out_;
