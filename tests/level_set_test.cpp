@@ -5,8 +5,10 @@
 
 #include <cmath>
 #include <functional>
+#include <numbers>
 #include <random>
 
+#include "zskel/mesh/signed_volume.h"
 #include "zskel/mesh/topology.h"
 
 using namespace zskel;
@@ -28,13 +30,6 @@ std::vector<LevelSetBlock> sampled(int side, const std::function<double(const DV
     return blocks;
 }
 
-double volume(const LevelSetMesh& mesh) {
-    double sum = 0.0;
-    for (const Triangle& t : mesh.triangles)
-        sum += glm::dot(mesh.positions[t.x], glm::cross(mesh.positions[t.y], mesh.positions[t.z]));
-    return sum / 6.0;
-}
-
 }  // namespace
 
 TEST_CASE("mesh_level_set: a ball over several blocks is closed, outward and where it should be") {
@@ -47,7 +42,7 @@ TEST_CASE("mesh_level_set: a ball over several blocks is closed, outward and whe
     CHECK(topology.components[0].is_closed);
     CHECK(topology.components[0].is_oriented);
     CHECK(topology.components[0].genus == 0);
-    CHECK(volume(mesh) ==
+    CHECK(signed_volume(mesh.positions, mesh.triangles) ==
           doctest::Approx(4.0 / 3.0 * 3.14159265 * std::pow(radius, 3)).epsilon(0.02));
     // Distance is convex along an edge, at most sqrt(3) long: the chord's sagitta.
     const double sagitta = 3.0 / (8.0 * (radius - 1.0));
@@ -79,4 +74,30 @@ TEST_CASE("mesh_level_set: cells that lack a corner are left out; one value stan
     for (const DVec3& p : wall.positions) CHECK(p.x == doctest::Approx(7.5));
     blocks.pop_back();
     CHECK(mesh_level_set(blocks).triangles.empty());
+}
+
+TEST_CASE("drop_parts: what is asked for goes with its vertices, and the rest is as it was") {
+    // Two balls side by side, one of them hollow.
+    const auto ball = [](const DVec3& p, double x, double radius) {
+        return glm::distance(p, DVec3(x, 8, 8)) - radius;
+    };
+    const auto blocks = sampled(4, [&](const DVec3& p) {
+        const double hollow = std::max(ball(p, 8, 6), -ball(p, 8, 3));
+        return std::min(hollow, ball(p, 22, 5));
+    });
+    LevelSetMesh mesh = mesh_level_set(blocks);
+    const LevelSetMesh whole = mesh;
+    const auto volume = [&](std::span<const Triangle> part) {
+        return signed_volume(mesh.positions, part);
+    };
+    CHECK(drop_parts(mesh, [&](auto) { return false; }) == 0);
+    CHECK(mesh.triangles == whole.triangles);
+    CHECK(drop_parts(mesh, [&](auto part) { return volume(part) < 0.0; }) == 1);  // the hollow
+    CHECK(volume(mesh.triangles) ==
+          doctest::Approx(4.0 / 3.0 * std::numbers::pi * (216.0 + 125.0)).epsilon(0.05));
+    CHECK(find_topology(mesh.positions.size(), mesh.triangles).components.size() == 2);
+    CHECK(drop_parts(mesh, [&](auto part) { return volume(part) > 600.0; }) == 1);
+    for (const DVec3& p : mesh.positions) CHECK(std::abs(ball(p, 22, 5)) < 0.2);
+    CHECK(drop_parts(mesh, [](auto) { return true; }) == 1);
+    CHECK(mesh.positions.empty());
 }

@@ -8,7 +8,6 @@
 #include <unordered_set>
 #include <utility>
 
-#include "zskel/core/disjoint_sets.h"
 #include "zskel/core/error.h"
 #include "zskel/core/lattice_hash.h"
 #include "zskel/core/parallel.h"
@@ -116,39 +115,17 @@ class Sampler {
     std::vector<glm::ivec3> next_;
 };
 
-// Voids so thin that parts meet there but for the sampling.
-std::size_t fill_thin_voids(LevelSetMesh& mesh) {
-    DisjointSets parts(mesh.positions.size());
-    for (const Triangle& t : mesh.triangles) {
-        parts.unite(t.x, t.y);
-        parts.unite(t.x, t.z);
+// A void so thin that parts meet there but for the sampling.
+bool is_thin_void(std::span<const DVec3> positions, std::span<const Triangle> part) {
+    double volume = 0.0;
+    double area = 0.0;
+    for (const Triangle& t : part) {
+        const DVec3& a = positions[t.x];
+        const DVec3 normal = glm::cross(positions[t.y] - a, positions[t.z] - a);
+        volume += glm::dot(a, normal) / 6.0;
+        area += 0.5 * glm::length(normal);
     }
-    std::vector<double> volume(mesh.positions.size(), 0.0);
-    std::vector<double> area(mesh.positions.size(), 0.0);
-    for (const Triangle& t : mesh.triangles) {
-        const DVec3& a = mesh.positions[t.x];
-        const DVec3 normal = glm::cross(mesh.positions[t.y] - a, mesh.positions[t.z] - a);
-        volume[parts.find(t.x)] += glm::dot(a, normal) / 6.0;
-        area[parts.find(t.x)] += 0.5 * glm::length(normal);
-    }
-    const auto is_thin = [&](std::uint32_t part) {
-        return volume[part] < 0.0 && -volume[part] < 0.5 * kThinVoid * area[part];
-    };
-    std::size_t voids = 0;
-    for (std::uint32_t v = 0; v < mesh.positions.size(); ++v)
-        voids += parts.find(v) == v && is_thin(v) ? 1 : 0;
-    if (voids == 0) return 0;
-    std::erase_if(mesh.triangles, [&](const Triangle& t) { return is_thin(parts.find(t.x)); });
-    std::vector<std::uint32_t> number(mesh.positions.size(), kNone);
-    std::vector<DVec3> kept;
-    for (std::uint32_t v = 0; v < number.size(); ++v) {
-        if (is_thin(parts.find(v))) continue;
-        number[v] = static_cast<std::uint32_t>(kept.size());
-        kept.push_back(mesh.positions[v]);
-    }
-    mesh.positions = std::move(kept);
-    for (Triangle& t : mesh.triangles) t = {number[t.x], number[t.y], number[t.z]};
-    return voids;
+    return volume < 0.0 && -volume < 0.5 * kThinVoid * area;
 }
 
 }  // namespace
@@ -175,8 +152,11 @@ JoinedMesh join_parts(const Mesh& mesh, const RepairOptions& repair, const JoinO
     out.repairs.push_back(
         {fmt::format("parts joined by their winding number, in voxels of {:.3g}", out.voxel_model),
          prepared.component_count});
+    const auto is_dropped = [&](std::span<const Triangle> part) {
+        return is_thin_void(surface.positions, part);
+    };
     note(out.repairs, "voids between parts filled: thinner than two voxels",
-         fill_thin_voids(surface));
+         drop_parts(surface, is_dropped));
     out.mesh.name = mesh.name;
     out.mesh.hash = mesh.hash;
     out.mesh.warnings = mesh.warnings;

@@ -3,8 +3,11 @@
 #include <algorithm>
 #include <array>
 #include <limits>
+#include <map>
 #include <unordered_map>
+#include <utility>
 
+#include "zskel/core/disjoint_sets.h"
 #include "zskel/core/lattice_hash.h"
 #include "zskel/mesh/tetrahedra.h"
 
@@ -133,6 +136,31 @@ class Mesher {
 
 LevelSetMesh mesh_level_set(std::span<const LevelSetBlock> blocks) {
     return Mesher(blocks).run();
+}
+
+std::size_t drop_parts(LevelSetMesh& mesh,
+                       const std::function<bool(std::span<const Triangle> part)>& is_dropped) {
+    DisjointSets sets(mesh.positions.size());
+    for (const Triangle& t : mesh.triangles) {
+        sets.unite(t.x, t.y);
+        sets.unite(t.x, t.z);
+    }
+    std::map<std::uint32_t, std::vector<Triangle>> parts;
+    for (const Triangle& t : mesh.triangles) parts[sets.find(t.x)].push_back(t);
+    const std::size_t dropped =
+        std::erase_if(parts, [&](const auto& part) { return is_dropped(part.second); });
+    if (dropped == 0) return 0;
+    std::vector<std::uint32_t> number(mesh.positions.size(), kNone);
+    std::vector<DVec3> kept;
+    for (std::uint32_t v = 0; v < number.size(); ++v) {
+        if (!parts.contains(sets.find(v))) continue;
+        number[v] = static_cast<std::uint32_t>(kept.size());
+        kept.push_back(mesh.positions[v]);
+    }
+    mesh.positions = std::move(kept);
+    std::erase_if(mesh.triangles, [&](const Triangle& t) { return number[t.x] == kNone; });
+    for (Triangle& t : mesh.triangles) t = {number[t.x], number[t.y], number[t.z]};
+    return dropped;
 }
 
 }  // namespace zskel

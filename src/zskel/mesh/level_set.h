@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <functional>
 #include <span>
 #include <vector>
 
@@ -23,6 +24,10 @@ struct LevelSetMesh {
     std::vector<DVec3> positions;
     std::vector<Triangle> triangles;
 };
+
+/// Takes out the connected parts of which this is true, with their vertices; returns how many.
+std::size_t drop_parts(LevelSetMesh& mesh,
+                       const std::function<bool(std::span<const Triangle> part)>& is_dropped);
 
 /// The zero surface by marching tetrahedra. Cells of which a corner is in no block are left out.
 LevelSetMesh mesh_level_set(std::span<const LevelSetBlock> blocks);

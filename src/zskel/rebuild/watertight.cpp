@@ -5,16 +5,14 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <map>
-#include <set>
 #include <unordered_set>
 
-#include "zskel/core/disjoint_sets.h"
 #include "zskel/core/error.h"
 #include "zskel/core/lattice_hash.h"
 #include "zskel/core/parallel.h"
 #include "zskel/mesh/bounds.h"
 #include "zskel/mesh/level_set.h"
+#include "zskel/mesh/signed_volume.h"
 #include "zskel/mesh/winding.h"
 
 namespace zskel {
@@ -98,75 +96,33 @@ std::vector<LevelSetBlock> sample_blocks(const Recall& recall, const Lattice& la
     return blocks;
 }
 
-RebuiltMesh mesh_of(const std::vector<LevelSetBlock>& blocks, const Lattice& lattice) {
+// What no node can have meant: a part without a node in it, since every node sees from the inside,
+// or a void of few voxels, where sightings were at odds.
+bool is_speck(const LevelSetMesh& mesh, const std::vector<Vec3>& places,
+              std::span<const Triangle> part, const Lattice& lattice, const VisibilityMaps& maps) {
+    const double volume = signed_volume(mesh.positions, part);
+    if (volume <= 0.0) return volume >= -kLeastVoid;
+    Box box;
+    for (const Triangle& t : part) {
+        for (int k = 0; k < 3; ++k) box.add(mesh.positions[t[k]]);
+    }
+    return std::none_of(maps.nodes.begin(), maps.nodes.end(), [&](const NodeMap& node) {
+        const DVec3 eye = (node.eye - lattice.low) / lattice.side;
+        return box.holds(eye) && winding_number(places, part, eye) > 0.5;
+    });
+}
+
+RebuiltMesh mesh_of(const std::vector<LevelSetBlock>& blocks, const Lattice& lattice,
+                    const VisibilityMaps& maps) {
     LevelSetMesh mesh = mesh_level_set(blocks);
+    const std::vector<Vec3> places(mesh.positions.begin(), mesh.positions.end());
+    drop_parts(mesh, [&](std::span<const Triangle> part) {
+        return is_speck(mesh, places, part, lattice, maps);
+    });
     RebuiltMesh out;
     out.voxel = lattice.side;
     for (const DVec3& p : mesh.positions) out.positions.push_back(lattice.place(p));
     out.triangles = std::move(mesh.triangles);
-    return out;
-}
-
-// What no node can have meant: parts without a node in them, since every node sees from the
-// inside, and voids of few voxels, where sightings were at odds.
-class Specks {
-  public:
-    Specks(const RebuiltMesh& mesh, const Lattice& lattice, const VisibilityMaps& maps)
-        : parts_(mesh.positions.size()) {
-        for (const Triangle& t : mesh.triangles) {
-            parts_.unite(t.x, t.y);
-            parts_.unite(t.x, t.z);
-        }
-        // In voxels, so that floats and volumes have one scale.
-        std::vector<Vec3> places;
-        for (const DVec3& p : mesh.positions) places.emplace_back((p - lattice.low) / lattice.side);
-        std::map<std::uint32_t, std::vector<Triangle>> of_part;
-        for (const Triangle& t : mesh.triangles) of_part[parts_.find(t.x)].push_back(t);
-        for (const auto& [part, triangles] : of_part) {
-            if (is_kept(places, triangles, lattice, maps)) kept_.insert(part);
-        }
-    }
-    bool holds(const Triangle& t) { return !kept_.contains(parts_.find(t.x)); }
-
-  private:
-    static bool is_kept(const std::vector<Vec3>& places, const std::vector<Triangle>& part,
-                        const Lattice& lattice, const VisibilityMaps& maps) {
-        Box box;
-        double volume = 0.0;
-        for (const Triangle& t : part) {
-            for (int k = 0; k < 3; ++k) box.add(DVec3(places[t[k]]));
-            volume += glm::dot(DVec3(places[t.x]), glm::cross(DVec3(places[t.y] - places[t.x]),
-                                                              DVec3(places[t.z] - places[t.x]))) /
-                      6.0;
-        }
-        if (volume <= 0.0) return volume < -kLeastVoid;
-        return std::any_of(maps.nodes.begin(), maps.nodes.end(), [&](const NodeMap& node) {
-            const DVec3 eye = (node.eye - lattice.low) / lattice.side;
-            return box.holds(eye) && winding_number(places, part, eye) > 0.5;
-        });
-    }
-
-    DisjointSets parts_;
-    std::set<std::uint32_t> kept_;
-};
-
-RebuiltMesh without_specks(const RebuiltMesh& mesh, const Lattice& lattice,
-                           const VisibilityMaps& maps) {
-    Specks specks(mesh, lattice, maps);
-    RebuiltMesh out;
-    out.voxel = mesh.voxel;
-    std::vector<std::uint32_t> number(mesh.positions.size(), kNone);
-    for (const Triangle& t : mesh.triangles) {
-        if (specks.holds(t)) continue;
-        Triangle& added = out.triangles.emplace_back();
-        for (int k = 0; k < 3; ++k) {
-            if (number[t[k]] == kNone) {
-                number[t[k]] = static_cast<std::uint32_t>(out.positions.size());
-                out.positions.push_back(mesh.positions[t[k]]);
-            }
-            added[k] = number[t[k]];
-        }
-    }
     return out;
 }
 
@@ -202,7 +158,7 @@ RebuiltMesh rebuild_surface(const VisibilityMaps& maps, const RebuildOptions& op
                         "be at most {} voxels",
                         lattice.side, longest, kMostVoxelsAsked));
     }
-    return without_specks(mesh_of(sample_blocks(recall, lattice, all), lattice), lattice, maps);
+    return mesh_of(sample_blocks(recall, lattice, all), lattice, maps);
 }
 
 }  // namespace zskel
