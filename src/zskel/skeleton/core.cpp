@@ -8,6 +8,7 @@
 #include <tuple>
 #include <utility>
 
+#include "zskel/core/disjoint_sets.h"
 #include "zskel/core/parallel.h"
 
 namespace zskel {
@@ -18,7 +19,9 @@ constexpr float kLeastGain = 0.1f;  // share of its cost
 constexpr int kPieces = 3;          // that each straight of a connection is measured in
 // Of the cost along the rest of the core: ways leave it at acute angles.
 constexpr float kSlideShare = 0.8f;
-constexpr std::size_t kMostStates = 64;  // of a search, for every cluster
+// Places that a search may come to, and all of them together: some 1.5 s.
+constexpr std::size_t kMostPlacesOfWay = 20'000;
+constexpr std::size_t kMostPlaces = 1'000'000;
 
 // Between two clusters at which more or less than two connections of the core meet, or round from
 // one to itself.
@@ -43,21 +46,20 @@ class CoreLayer {
                 costs_[i] = radii_along(connections[i].path, query);
         });
         set_core(core);
+        cycles_ = count_cycles();
     }
 
-    std::vector<std::uint32_t> run() {
+    LaidCore run() {
         for (int round = 0; round < kRounds; ++round) {
             bool is_changed = false;
             for (const Strand& strand : strands()) {
                 if (!is_whole(strand)) continue;
                 const std::vector<std::uint32_t> way = cheaper_way(strand);
-                if (way.empty()) continue;
-                replace(strand, way);
-                is_changed = true;
+                if (!way.empty() && replace(strand, way)) is_changed = true;
             }
             if (!is_changed) break;
         }
-        return core_;
+        return {core_, is_complete_};
     }
 
   private:
@@ -141,7 +143,7 @@ class CoreLayer {
     }
 
     // The connections off the rest of the core; none where no way costs less.
-    std::vector<std::uint32_t> cheaper_way(const Strand& strand) const {
+    std::vector<std::uint32_t> cheaper_way(const Strand& strand) {
         std::vector<bool> is_strand(connections_.size(), false);
         for (const std::uint32_t i : strand.connections) is_strand[i] = true;
         const auto is_rest = [&](std::uint32_t i) { return in_core_[i] && !is_strand[i]; };
@@ -157,11 +159,17 @@ class CoreLayer {
         std::priority_queue<Entry, std::vector<Entry>, std::greater<>> front;
         std::map<State, Reached> reached{{start, {0.0f, start, kNone}}};
         front.emplace(0.0f, start);
-        while (!front.empty() && reached.size() < kMostStates * girths_.size()) {
+        const std::size_t most_places = std::min(kMostPlacesOfWay, places_left_);
+        std::vector<std::uint32_t> way;
+        while (!front.empty() && way.empty()) {
             const auto [cost, state] = front.top();
             front.pop();
             if (cost > reached.at(state).cost) continue;
-            if (state == goal) return way_to(goal, start, reached, is_rest);
+            if (state == goal) way = way_to(goal, start, reached, is_rest);
+            if (reached.size() >= most_places) {
+                is_complete_ = false;
+                break;
+            }
             const auto [cluster, sum, phase] = state;
             for (const Arc& arc : arcs_[cluster]) {
                 const Connection& c = connections_[arc.connection];
@@ -178,7 +186,8 @@ class CoreLayer {
                 front.emplace(there, next);
             }
         }
-        return {};
+        places_left_ -= std::min(places_left_, reached.size());
+        return way;
     }
 
     template <typename IsRest>
@@ -193,7 +202,10 @@ class CoreLayer {
         return way;
     }
 
-    void replace(const Strand& strand, const std::vector<std::uint32_t>& way) {
+    // Undone where the way is none that the strand can give place to: it goes through a cluster
+    // twice, or the strand's cycle is none in the solid.
+    bool replace(const Strand& strand, const std::vector<std::uint32_t>& way) {
+        const std::vector<std::uint32_t> before = core_;
         for (const std::uint32_t i : strand.connections) in_core_[i] = false;
         for (const std::uint32_t i : way) in_core_[i] = true;
         std::vector<std::uint32_t> core;
@@ -201,6 +213,16 @@ class CoreLayer {
             if (in_core_[i]) core.push_back(i);
         }
         set_core(core_of(connections_, core, girths_.size()));
+        if (count_cycles() == cycles_) return true;
+        set_core(before);
+        return false;
+    }
+
+    std::size_t count_cycles() const {
+        DisjointSets sets(girths_.size());
+        return static_cast<std::size_t>(std::ranges::count_if(core_, [&](std::uint32_t i) {
+            return !sets.unite(connections_[i].a, connections_[i].b);
+        }));
     }
 
     std::span<const Connection> connections_;
@@ -210,6 +232,9 @@ class CoreLayer {
     std::vector<std::uint32_t> core_;
     std::vector<bool> in_core_;
     Arcs core_arcs_;
+    std::size_t cycles_ = 0;
+    std::size_t places_left_ = kMostPlaces;
+    bool is_complete_ = true;
 };
 
 }  // namespace
@@ -249,9 +274,8 @@ std::vector<std::uint32_t> core_of(std::span<const Connection> connections,
     return core;
 }
 
-std::vector<std::uint32_t> lay_core(const SurfaceQuery& query, std::span<const float> girths,
-                                    std::span<const Connection> connections,
-                                    std::span<const std::uint32_t> core) {
+LaidCore lay_core(const SurfaceQuery& query, std::span<const float> girths,
+                  std::span<const Connection> connections, std::span<const std::uint32_t> core) {
     return CoreLayer(query, girths, connections, core).run();
 }
 

@@ -24,15 +24,21 @@ Arcs arcs_of(std::span<const Connection> connections, std::span<const std::uint3
 std::vector<std::uint32_t> core_of(std::span<const Connection> connections,
                                    std::span<const std::uint32_t> numbers, std::size_t clusters);
 
+struct LaidCore {
+    std::vector<std::uint32_t> connections;
+    bool is_complete = true;  ///< false when ways were left as they were, for the work
+};
+
 /// Of a core one that runs along the thick middle. A tree of the shortest connections goes from
 /// limb to limb along the surface: a way between two junctions of the core gives place to one that
 /// is shorter, measured in inscribed radii along it, and differs from it by nothing in the solid's
-/// homology; its ends may slide along the rest of the core. So there are as many cycles as before,
-/// and their classes span the same.
-/// @param girths  of the clusters: a ring that nothing hangs on keeps its thickest.
-/// Work: n log n a way, in the clusters that are no farther than it is long.
-std::vector<std::uint32_t> lay_core(const SurfaceQuery& query, std::span<const float> girths,
-                                    std::span<const Connection> connections,
-                                    std::span<const std::uint32_t> core);
+/// homology; its ends may slide along the rest of the core. There are as many cycles as before, and
+/// their classes span the same, as far as `Connection::sum` tells classes apart. Connections of a
+/// cluster with itself may give place, but are in no new way.
+/// @param girths  of the clusters: a ring that nothing hangs on is laid from its thickest.
+/// Work: a bounded number of places, each a cluster and a sum, and for each way that gives place
+/// once through the network.
+LaidCore lay_core(const SurfaceQuery& query, std::span<const float> girths,
+                  std::span<const Connection> connections, std::span<const std::uint32_t> core);
 
 }  // namespace zskel

@@ -47,7 +47,7 @@ class Connector {
         bridge_shells(context_, sets, out);
         for (std::size_t i = candidates_.size(); i < out.connections.size(); ++i)
             out.connections[i].sum = walks_.sum_of(out.connections[i].path);
-        out.core = core_in(out);
+        lay_cycles(out);
         return out;
     }
 
@@ -250,14 +250,15 @@ class Connector {
         return basis.is_complete();
     }
 
-    std::vector<std::uint32_t> core_in(const ClusterNetwork& network) {
-        if (handles_.cycles() == 0) return {};
-        const std::size_t clusters = context_.clusters.centers.size();
-        std::vector<std::uint32_t> core = core_of(network.connections, network.spanning, clusters);
-        if (!network.has_all_cycles) return core;
-        std::vector<std::uint32_t> laid =
-            lay_core(context_.query, context_.girths, network.connections, core);
-        return has_all_cycles(laid) ? laid : core;
+    void lay_cycles(ClusterNetwork& network) {
+        if (handles_.cycles() == 0) return;
+        network.core = core_of(network.connections, network.spanning, context_.girths.size());
+        if (!network.has_all_cycles) return;
+        LaidCore laid =
+            lay_core(context_.query, context_.girths, network.connections, network.core);
+        const bool is_right = has_all_cycles(laid.connections);
+        network.is_core_laid = laid.is_complete && is_right;
+        if (is_right) network.core = std::move(laid.connections);
     }
 
     // Asks the classes themselves, of which the sums that cycles are laid by may tell too little.
@@ -267,6 +268,7 @@ class Connector {
         DisjointSets sets(context_.clusters.centers.size());
         std::vector<std::uint32_t> tree;
         const std::vector<std::uint32_t> others = add_tree(core, sets, tree);
+        places_.clear();  // as large again
         places_ = walk_tree(tree);
         CycleBasis basis(handles_);
         return std::ranges::all_of(others,

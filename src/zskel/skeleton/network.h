@@ -26,7 +26,9 @@ struct Connection {
 struct ClusterNetwork {
     std::vector<Connection> connections;  ///< all that the mesh gives, and bridges between shells
     std::vector<std::uint32_t> spanning;  ///< numbers of those in the tree and of its cycles
-    std::vector<std::uint32_t> core;      ///< numbers of those in cycles, and of what joins these
+    std::vector<std::uint32_t> core;      ///< numbers of those in cycles, and of what joins these;
+                                          ///< laid anew, so not all of them are in `spanning`
+    bool is_core_laid = true;             ///< false when cycles were left as they were found
     bool has_all_cycles = true;  ///< as many as handles; if not, some could not be laid inside
 };
 

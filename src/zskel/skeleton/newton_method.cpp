@@ -168,6 +168,8 @@ SolidSkeleton extract_by_newton(
         if (attempt < options.max_retries && split_rings(network, clusters, ranges)) continue;
         if (!network.has_all_cycles)
             out.warnings.emplace_back("a cycle is missing: no way for it was found inside");
+        if (!network.is_core_laid)
+            out.warnings.emplace_back("not all cycles could be laid along the middle of the solid");
         const Limbs limbs = grow_limbs(context, network, options.limbs);
         const auto unfree =
             std::count_if(limbs.connections.begin(), limbs.connections.end(),
