@@ -13,6 +13,7 @@
 #include "zskel/core/parallel.h"
 #include "zskel/mesh/bounds.h"
 #include "zskel/mesh/level_set.h"
+#include "zskel/mesh/signed_volume.h"
 #include "zskel/mesh/winding_tree.h"
 #include "zskel/visibility/surface_query.h"
 
@@ -117,13 +118,11 @@ class Sampler {
 
 // A void so thin that parts meet there but for the sampling.
 bool is_thin_void(std::span<const DVec3> positions, std::span<const Triangle> part) {
-    double volume = 0.0;
+    const double volume = signed_volume(positions, part);
     double area = 0.0;
     for (const Triangle& t : part) {
         const DVec3& a = positions[t.x];
-        const DVec3 normal = glm::cross(positions[t.y] - a, positions[t.z] - a);
-        volume += glm::dot(a, normal) / 6.0;
-        area += 0.5 * glm::length(normal);
+        area += 0.5 * glm::length(glm::cross(positions[t.y] - a, positions[t.z] - a));
     }
     return volume < 0.0 && -volume < 0.5 * kThinVoid * area;
 }

@@ -51,8 +51,8 @@ bool edge_passes(const Triangles& all, const Triangle& one, const Triangle& othe
     return false;
 }
 
-// Passes through Embree, which ends the search and frees it: by the caller's thread after all
-// bodies.
+// Passes through Embree, which ends the search and frees it, as a rule by the caller's thread: that
+// comes after the bodies.
 class TooManyPairs : public std::exception {
   public:
     explicit TooManyPairs(LoopOrder& order) : order_(order) {}

@@ -37,10 +37,10 @@ class CoreLayer {
   public:
     CoreLayer(const SurfaceQuery& query, std::span<const float> girths,
               std::span<const Connection> connections, std::span<const std::uint32_t> core)
-        : connections_(connections), girths_(girths), costs_(connections.size()) {
-        std::vector<std::uint32_t> all(connections.size());
-        std::iota(all.begin(), all.end(), 0u);
-        arcs_ = arcs_of(connections, all, girths_.size());
+        : connections_(connections),
+          girths_(girths),
+          costs_(connections.size()),
+          arcs_(arcs_of(connections, girths.size())) {
         parallel_for(connections.size(), 16, [&](std::size_t begin, std::size_t end) {
             for (std::size_t i = begin; i < end; ++i)
                 costs_[i] = radii_along(connections[i].path, query);
@@ -161,11 +161,14 @@ class CoreLayer {
         front.emplace(0.0f, start);
         const std::size_t most_places = std::min(kMostPlacesOfWay, places_left_);
         std::vector<std::uint32_t> way;
-        while (!front.empty() && way.empty()) {
+        while (!front.empty()) {
             const auto [cost, state] = front.top();
             front.pop();
             if (cost > reached.at(state).cost) continue;
-            if (state == goal) way = way_to(goal, start, reached, is_rest);
+            if (state == goal) {
+                way = way_to(goal, start, reached, is_rest);
+                break;
+            }
             if (reached.size() >= most_places) {
                 is_complete_ = false;
                 break;
@@ -238,6 +241,12 @@ class CoreLayer {
 };
 
 }  // namespace
+
+Arcs arcs_of(std::span<const Connection> connections, std::size_t clusters) {
+    std::vector<std::uint32_t> all(connections.size());
+    std::iota(all.begin(), all.end(), 0u);
+    return arcs_of(connections, all, clusters);
+}
 
 Arcs arcs_of(std::span<const Connection> connections, std::span<const std::uint32_t> numbers,
              std::size_t clusters) {

@@ -16,6 +16,8 @@ struct Arc {
 /// The arcs of every cluster; a connection of a cluster with itself gives it two.
 using Arcs = std::vector<std::vector<Arc>>;
 
+Arcs arcs_of(std::span<const Connection> connections, std::size_t clusters);
+
 /// @param numbers  of the connections that count.
 Arcs arcs_of(std::span<const Connection> connections, std::span<const std::uint32_t> numbers,
              std::size_t clusters);

@@ -32,12 +32,6 @@ constexpr float kUnfreeCost = 1e3f;        // of connections that could not be l
 constexpr float kAsThick = 0.98f;
 constexpr float kAsThickAlone = 0.95f;
 
-std::vector<std::uint32_t> all_of(std::span<const Connection> connections) {
-    std::vector<std::uint32_t> numbers(connections.size());
-    std::iota(numbers.begin(), numbers.end(), 0u);
-    return numbers;
-}
-
 float median(std::vector<float> numbers) {
     const auto middle = numbers.begin() + static_cast<std::ptrdiff_t>(numbers.size() / 2);
     std::nth_element(numbers.begin(), middle, numbers.end());
@@ -98,7 +92,7 @@ class LimbGrower {
           centers_(context.clusters.centers),
           girths_(context.girths),
           options_(options),
-          arcs_(arcs_of(connections_, all_of(connections_), girths_.size())),
+          arcs_(arcs_of(connections_, girths_.size())),
           ways_(girths_.size()),
           coverage_(seed_coverage(context)),
           is_tried_(context.spread.vertices.size(), false) {}

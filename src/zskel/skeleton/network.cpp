@@ -18,11 +18,6 @@ namespace {
 
 using Class = HandleClasses::Class;
 
-struct Candidate {
-    Connection connection;
-    std::uint32_t edge = 0;  // from vertex_a to vertex_b
-};
-
 void add_to(Class& sum, const Class& other, std::int64_t sign) {
     for (std::size_t k = 0; k < sum.size(); ++k) sum[k] += sign * other[k];
 }
@@ -32,29 +27,26 @@ class Connector {
     Connector(const ClusterContext& context, const HandleClasses& handles)
         : context_(context), handles_(handles), walks_(context, handles) {
         gather();
-        parallel_for(candidates_.size(), 8, [&](std::size_t begin, std::size_t end) {
-            for (std::size_t i = begin; i < end; ++i) lay_path(candidates_[i]);
+        parallel_for(edges_.size(), 8, [&](std::size_t begin, std::size_t end) {
+            for (std::size_t i = begin; i < end; ++i) lay_path(out_.connections[i]);
         });
     }
 
     ClusterNetwork run() {
-        ClusterNetwork out;
         DisjointSets sets(context_.clusters.centers.size());
-        const std::vector<std::uint32_t> others = add_tree(order(), sets, out.spanning);
-        out.has_all_cycles = add_cycles(others, out.spanning);
-        for (const Candidate& candidate : candidates_)
-            out.connections.push_back(candidate.connection);
-        bridge_shells(context_, sets, out);
-        for (std::size_t i = candidates_.size(); i < out.connections.size(); ++i)
-            out.connections[i].sum = walks_.sum_of(out.connections[i].path);
-        lay_cycles(out);
-        return out;
+        const std::vector<std::uint32_t> others = add_tree(order(), sets, out_.spanning);
+        out_.has_all_cycles = add_cycles(others);
+        bridge_shells(context_, sets, out_);
+        for (std::size_t i = edges_.size(); i < out_.connections.size(); ++i)
+            out_.connections[i].sum = walks_.sum_of(out_.connections[i].path);
+        lay_cycles();
+        return std::move(out_);
     }
 
   private:
     struct TreeLink {
         std::uint32_t cluster;
-        std::uint32_t candidate;
+        std::uint32_t connection;
         std::int64_t sign;
     };
 
@@ -68,12 +60,12 @@ class Connector {
     };
 
     struct Cycle {
-        std::uint32_t candidate;
+        std::uint32_t connection;
         float length;
         std::uint64_t sum;
     };
 
-    // One candidate for each pair of clusters and class, up to its direction where both are one.
+    // One connection for each pair of clusters and class, up to its direction where both are one.
     void gather() {
         std::set<std::tuple<std::uint32_t, std::uint32_t, std::uint64_t>> known;
         for (std::uint32_t e = 0; e < context_.surface.edges.size(); ++e) {
@@ -87,14 +79,14 @@ class Connector {
             if (a == b && sum == 0) continue;
             const std::uint64_t key = a == b ? std::min(sum, 0 - sum) : sum;
             if (!known.emplace(a, b, key).second) continue;
-            candidates_.push_back({{a, b, v, w, {}, 0.0f, true, sum}, e});
+            out_.connections.push_back({a, b, v, w, {}, 0.0f, true, sum});
+            edges_.push_back(e);
         }
     }
 
     // Straight where that is free and the same way round all handles; else along the surface,
     // pulled tight.
-    void lay_path(Candidate& candidate) const {
-        Connection& c = candidate.connection;
+    void lay_path(Connection& c) const {
         c.path = {context_.clusters.centers[c.a], context_.clusters.centers[c.b]};
         if (c.a == c.b || !is_way(c.path, c.sum) || !is_free(c.path, context_.query)) {
             c.path = joined(walks_.short_way_to(c.vertex_a), walks_.short_way_to(c.vertex_b));
@@ -122,24 +114,23 @@ class Connector {
     }
 
     // The class of the walk from centre to centre.
-    Class class_of(const Candidate& candidate) const {
-        Class cls = walks_.class_to(candidate.connection.vertex_a);
-        handles_.add_edge(cls, candidate.edge,
-                          candidate.connection.vertex_a < candidate.connection.vertex_b);
-        add_to(cls, walks_.class_to(candidate.connection.vertex_b), -1);
+    Class class_of(std::uint32_t i) const {
+        const Connection& c = out_.connections[i];
+        Class cls = walks_.class_to(c.vertex_a);
+        handles_.add_edge(cls, edges_[i], c.vertex_a < c.vertex_b);
+        add_to(cls, walks_.class_to(c.vertex_b), -1);
         return cls;
     }
 
-    // Candidates that may be in the tree, best first.
+    // Of connections that may be in the tree, best first.
     std::vector<std::uint32_t> order() const {
-        std::vector<std::uint32_t> out(candidates_.size());
+        std::vector<std::uint32_t> out(out_.connections.size());
         std::iota(out.begin(), out.end(), 0u);
         std::vector<bool> is_cut;
-        for (const Candidate& candidate : candidates_)
-            is_cut.push_back(goes_through_cut(candidate.connection.path));
+        for (const Connection& c : out_.connections) is_cut.push_back(goes_through_cut(c.path));
         std::stable_sort(out.begin(), out.end(), [&](auto l, auto r) {
-            const Connection& a = candidates_[l].connection;
-            const Connection& b = candidates_[r].connection;
+            const Connection& a = out_.connections[l];
+            const Connection& b = out_.connections[r];
             return std::tuple(!a.is_inside, bool(is_cut[l]), a.length) <
                    std::tuple(!b.is_inside, bool(is_cut[r]), b.length);
         });
@@ -159,7 +150,7 @@ class Connector {
     std::vector<Place> walk_tree(const std::vector<std::uint32_t>& tree) const {
         std::vector<std::vector<TreeLink>> links(context_.clusters.centers.size());
         for (const std::uint32_t i : tree) {
-            const Connection& c = candidates_[i].connection;
+            const Connection& c = out_.connections[i];
             links[c.a].push_back({c.b, i, 1});
             links[c.b].push_back({c.a, i, -1});
         }
@@ -173,13 +164,11 @@ class Connector {
                 const Place& here = places[queue[i]];
                 for (const TreeLink& link : links[queue[i]]) {
                     if (places[link.cluster].parent != kNone) continue;
-                    const Candidate& by = candidates_[link.candidate];
+                    const Connection& by = out_.connections[link.connection];
                     Place& next = places[link.cluster];
-                    next = {
-                        queue[i], here.depth + 1, here.reach + by.connection.length,
-                        link.sign > 0 ? here.sum + by.connection.sum : here.sum - by.connection.sum,
-                        here.cls};
-                    add_to(next.cls, class_of(by), link.sign);
+                    next = {queue[i], here.depth + 1, here.reach + by.length,
+                            link.sign > 0 ? here.sum + by.sum : here.sum - by.sum, here.cls};
+                    add_to(next.cls, class_of(link.connection), link.sign);
                     queue.push_back(link.cluster);
                 }
             }
@@ -196,12 +185,12 @@ class Connector {
     }
 
     // Adds those that join sets; the rest is left over.
-    std::vector<std::uint32_t> add_tree(const std::vector<std::uint32_t>& candidates,
+    std::vector<std::uint32_t> add_tree(const std::vector<std::uint32_t>& numbers,
                                         DisjointSets& sets,
                                         std::vector<std::uint32_t>& tree) const {
         std::vector<std::uint32_t> others;
-        for (const std::uint32_t i : candidates) {
-            const Connection& c = candidates_[i].connection;
+        for (const std::uint32_t i : numbers) {
+            const Connection& c = out_.connections[i];
             (sets.unite(c.a, c.b) ? tree : others).push_back(i);
         }
         return others;
@@ -211,7 +200,7 @@ class Connector {
     std::vector<Cycle> find_cycles(const std::vector<std::uint32_t>& others) const {
         std::vector<Cycle> cycles;
         for (const std::uint32_t i : others) {
-            const Connection& c = candidates_[i].connection;
+            const Connection& c = out_.connections[i];
             if (!c.is_inside) continue;
             const std::uint64_t sum = c.sum + places_[c.a].sum - places_[c.b].sum;
             const float length = c.length + places_[c.a].reach + places_[c.b].reach -
@@ -223,20 +212,20 @@ class Connector {
         return cycles;
     }
 
-    // Of the cycle that a candidate closes over the tree.
+    // Of the cycle that a connection closes over the tree.
     Class cycle_class(std::uint32_t i) const {
-        Class cls = class_of(candidates_[i]);
-        add_to(cls, places_[candidates_[i].connection.a].cls, 1);
-        add_to(cls, places_[candidates_[i].connection.b].cls, -1);
+        const Connection& c = out_.connections[i];
+        Class cls = class_of(i);
+        add_to(cls, places_[c.a].cls, 1);
+        add_to(cls, places_[c.b].cls, -1);
         return cls;
     }
 
     // Of each class only the shortest need be looked at. Where the surface cuts through itself, the
     // sums may not tell classes apart: then all are.
-    bool add_cycles(const std::vector<std::uint32_t>& others,
-                    std::vector<std::uint32_t>& spanning) {
+    bool add_cycles(const std::vector<std::uint32_t>& others) {
         if (handles_.cycles() == 0) return true;
-        places_ = walk_tree(spanning);
+        places_ = walk_tree(out_.spanning);
         CycleBasis basis(handles_);
         const std::vector<Cycle> cycles = find_cycles(others);
         std::set<std::uint64_t> known{0};
@@ -244,27 +233,27 @@ class Connector {
             for (const Cycle& cycle : cycles) {
                 if (basis.is_complete()) return true;
                 if (trusts_sums && !known.insert(cycle.sum).second) continue;
-                if (basis.extend(cycle_class(cycle.candidate))) spanning.push_back(cycle.candidate);
+                if (basis.extend(cycle_class(cycle.connection)))
+                    out_.spanning.push_back(cycle.connection);
             }
         }
         return basis.is_complete();
     }
 
-    void lay_cycles(ClusterNetwork& network) {
+    void lay_cycles() {
         if (handles_.cycles() == 0) return;
-        network.core = core_of(network.connections, network.spanning, context_.girths.size());
-        if (!network.has_all_cycles) return;
-        LaidCore laid =
-            lay_core(context_.query, context_.girths, network.connections, network.core);
+        out_.core = core_of(out_.connections, out_.spanning, context_.girths.size());
+        if (!out_.has_all_cycles) return;
+        LaidCore laid = lay_core(context_.query, context_.girths, out_.connections, out_.core);
         const bool is_right = has_all_cycles(laid.connections);
-        network.is_core_laid = laid.is_complete && is_right;
-        if (is_right) network.core = std::move(laid.connections);
+        out_.is_core_laid = laid.is_complete && is_right;
+        if (is_right) out_.core = std::move(laid.connections);
     }
 
     // Asks the classes themselves, of which the sums that cycles are laid by may tell too little.
     // Bridges between shells are in no cycle.
     bool has_all_cycles(std::vector<std::uint32_t> core) {
-        std::erase_if(core, [&](std::uint32_t i) { return i >= candidates_.size(); });
+        std::erase_if(core, [&](std::uint32_t i) { return i >= edges_.size(); });
         DisjointSets sets(context_.clusters.centers.size());
         std::vector<std::uint32_t> tree;
         const std::vector<std::uint32_t> others = add_tree(core, sets, tree);
@@ -279,8 +268,9 @@ class Connector {
     const ClusterContext& context_;
     const HandleClasses& handles_;
     SurfaceWalks walks_;
-    std::vector<Candidate> candidates_;
-    std::vector<Place> places_;  // in the tree that cycles are closed over
+    ClusterNetwork out_;
+    std::vector<std::uint32_t> edges_;  // of each connection but the bridges, from its vertex_a on
+    std::vector<Place> places_;         // in the tree that cycles are closed over
 };
 
 }  // namespace
