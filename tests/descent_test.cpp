@@ -3,6 +3,7 @@
 
 #include <cmath>
 #include <map>
+#include <set>
 #include <tuple>
 
 #include "support/models.h"
@@ -16,6 +17,12 @@ using namespace zskel;
 
 namespace {
 
+using Key = std::tuple<float, float, float>;
+
+Key key_of(const Vec3& p) {
+    return {p.x, p.y, p.z};
+}
+
 // Passes on, and remembers what was seen from where.
 class RecordingSource : public VisibilitySource {
   public:
@@ -24,15 +31,12 @@ class RecordingSource : public VisibilitySource {
 
     void look(std::span<const Vec3> eyes, std::span<EyeRecord> records) override {
         source_.look(eyes, records);
-        for (std::size_t i = 0; i < eyes.size(); ++i) seen_[key(eyes[i])] = records[i];
+        for (std::size_t i = 0; i < eyes.size(); ++i) seen_[key_of(eyes[i])] = records[i];
     }
     void render(std::span<const Vec3> eyes, MapBatch& maps) override { source_.render(eyes, maps); }
-    const EyeRecord& seen_from(const Vec3& eye) const { return seen_.at(key(eye)); }
+    const EyeRecord& seen_from(const Vec3& eye) const { return seen_.at(key_of(eye)); }
 
   private:
-    using Key = std::tuple<float, float, float>;
-    static Key key(const Vec3& p) { return {p.x, p.y, p.z}; }
-
     VisibilitySource& source_;
     std::map<Key, EyeRecord> seen_;
 };
@@ -118,7 +122,8 @@ Walk judge_paths(const RecordingSource& source, std::span<const SettledSeed> set
 
 Walk judge_walk(VisibilitySource& source, std::span<const Seed> seeds) {
     RecordingSource recording(source);
-    const NewtonOptions options;
+    NewtonOptions options;
+    options.core_nearest = 0.0;
     const auto settled = settle_seeds_newton(recording, seeds, options);
     Walk walk = judge_paths(recording, settled, options);
     for (const SettledSeed& seed : settled) walk.refused += seed.evaluations - seed.path.size();
@@ -140,6 +145,42 @@ TEST_CASE("settle_seeds_newton: every step on a horse goes with the force and le
     const Walk walk = judge_walk(*rays, seeds);
     CHECK(walk.jumps == seeds.size());
     CHECK(walk.steps > seeds.size());
+}
+
+TEST_CASE("settle_seeds_newton: what comes into the core of a place at rest ends there") {
+    const PreparedSurface prepared = test::model("horse");
+    const auto rays = make_ray_source(prepared.surface, cube_directions(16));
+    const auto seeds = test::some_seeds(prepared.surface, 2);
+    RecordingSource recording(*rays);
+    NewtonOptions options;
+    const auto settled = settle_seeds_newton(recording, seeds, options);
+    std::set<Key> places;  // that seeds came to by themselves
+    std::size_t evaluations = 0;
+    for (const SettledSeed& seed : settled) {
+        evaluations += seed.evaluations;
+        if (seed.path.size() == seed.steps + 1) places.insert(key_of(seed.position));
+    }
+    std::size_t joined = 0;
+    for (const SettledSeed& seed : settled) {
+        CHECK(seed.path.back() == seed.position);
+        if (seed.path.size() == seed.steps + 1) continue;
+        ++joined;
+        REQUIRE(seed.path.size() == seed.steps + 2);
+        CHECK(seed.state == SeedState::Converged);
+        CHECK(places.contains(key_of(seed.position)));
+        const double core =
+            options.core_nearest * static_cast<double>(recording.seen_from(seed.position).nearest);
+        CHECK(static_cast<double>(glm::distance(seed.path[seed.steps], seed.position)) <=
+              1.00001 * core);
+    }
+    CHECK(joined > 50);
+    options.core_nearest = 0.0;
+    std::size_t alone = 0;
+    for (const SettledSeed& seed : settle_seeds_newton(*rays, seeds, options)) {
+        alone += seed.evaluations;
+        CHECK(seed.path.size() == seed.steps + 1);
+    }
+    CHECK(evaluations < alone - joined / 2);
 }
 
 TEST_CASE("settle_seeds_newton: within a sheet a seed goes to its middle, and stays there") {

@@ -15,7 +15,7 @@ struct LimbOptions {
     double least_world = 0.02;       ///< sticks out at least this far, in the solid's size,
     double least_own_girths = 1.0;   ///< this many of its own girths,
     double least_body_girths = 0.2;  ///< and of the body's,
-    double least_product = 0.6;      ///< and so much by the product of the two
+    double least_product = 0.56;     ///< and so much by the product of the two
     double bare_own_sizes =
         2.1;  ///< where no seed came to rest beyond the ball: so many radii of a circle as large as
               ///< its section, which is flat at an ear's rim,

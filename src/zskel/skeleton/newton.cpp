@@ -5,8 +5,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "zskel/core/eigen3.h"
+#include "zskel/skeleton/rest_places.h"
 #include "zskel/skeleton/walk.h"
 
 namespace zskel {
@@ -32,7 +34,8 @@ struct Walker {
 
 class NewtonWalk {
   public:
-    explicit NewtonWalk(const NewtonOptions& options) : options_(options) {}
+    explicit NewtonWalk(const NewtonOptions& options)
+        : options_(options), places_(options.core_nearest) {}
 
     // Judges what was met at `tried`; true when the walker goes on.
     bool advance(Walker& walker, SettledSeed& seed, const EyeRecord& met) const {
@@ -46,6 +49,28 @@ class NewtonWalk {
         if (seed.steps >= static_cast<std::uint32_t>(options_.max_steps))
             return rest(seed, seed.steps > 0 ? SeedState::StepLimit : SeedState::Converged);
         return plan(walker, seed);
+    }
+
+    // What has come into the core of a place at rest would come to rest beside it: it does there.
+    void end_round(std::span<const Walker> walkers, std::span<SettledSeed> settled,
+                   std::span<std::uint8_t> goes_on) {
+        for (std::size_t i = 0; i < walkers.size(); ++i) {
+            const SettledSeed& seed = settled[walkers[i].index];
+            if (goes_on[i] == 0 && seed.state == SeedState::Converged)
+                places_.add(seed.position, walkers[i].met.nearest);
+        }
+        parallel_for(walkers.size(), 64, [&](std::size_t begin, std::size_t end) {
+            for (std::size_t i = begin; i < end; ++i) {
+                if (goes_on[i] == 0) continue;
+                SettledSeed& seed = settled[walkers[i].index];
+                const std::optional<Vec3> place = places_.find(seed.position);
+                if (!place) continue;
+                goes_on[i] = 0;
+                seed.position = *place;
+                seed.path.push_back(*place);
+                rest(seed, SeedState::Converged);
+            }
+        });
     }
 
   private:
@@ -132,6 +157,7 @@ class NewtonWalk {
     }
 
     const NewtonOptions& options_;
+    RestPlaces places_;
 };
 
 }  // namespace

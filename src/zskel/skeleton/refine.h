@@ -17,7 +17,7 @@ struct RefineOptions {
                                       ///< 0: by the radius
     int smoothing_sweeps = 12;        ///< before, of smoothing alone
     int sweeps = 60;                  ///< of centring and smoothing
-    double centring = 0.2;  ///< share of the way to the section's centre that a sweep takes
+    double centring = 0.25;  ///< share of the way to the section's centre that a sweep takes
     double longest_move_radii = 0.3;  ///< but no longer than this, in inscribed radii
     double junction_radii = 0.3;      ///< nearer to a junction the centring fades: a section says
                                       ///< little where branches part

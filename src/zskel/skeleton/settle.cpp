@@ -51,6 +51,10 @@ class PaperWalk {
         return true;
     }
 
+    // Each goes its own way.
+    void end_round(std::span<const Walker>, std::span<SettledSeed>, std::span<std::uint8_t>) const {
+    }
+
   private:
     bool is_spent(float strength, float radius) const {
         const float way_left = 3.0f * radius * radius * strength;

@@ -13,7 +13,7 @@ namespace zskel {
 
 /// How a seed came to rest.
 enum class SeedState : std::uint8_t {
-    Converged,  ///< the next step would meet a greater force
+    Converged,  ///< the next step would meet a greater force; or it came to where others rest
     StepLimit,  ///< still descending after max_steps
     LeftMesh,   ///< it sees more front faces than back faces
     NoHits,     ///< it sees nothing

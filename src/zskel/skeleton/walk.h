@@ -16,10 +16,12 @@ inline constexpr float kLeastBackFraction = 0.5f;
 /// Lets all seeds look together, one batch a round, until each is at rest.
 /// @tparam Walker  a seed on its way: `index`, and the point `tried` that it waits to look from.
 /// @tparam Walk    has `bool advance(Walker&, SettledSeed&, const EyeRecord&) const`, which judges
-///                 what was met at `tried`; true when the seed goes on.
+///                 what was met at `tried`; true when the seed goes on. And `void end_round(
+///                 std::span<const Walker>, std::span<SettledSeed>, std::span<std::uint8_t>)`,
+///                 which may stop more of those that go on (1) after all have been judged.
 template <typename Walker, typename Walk>
 std::vector<SettledSeed> walk_to_rest(VisibilitySource& source, std::span<const Seed> seeds,
-                                      const Walk& walk, const SettleProgress& progress) {
+                                      Walk walk, const SettleProgress& progress) {
     std::vector<SettledSeed> settled(seeds.size());
     std::vector<Walker> walkers(seeds.size());
     for (std::uint32_t i = 0; i < seeds.size(); ++i) {
@@ -43,6 +45,7 @@ std::vector<SettledSeed> walk_to_rest(VisibilitySource& source, std::span<const 
                 goes_on[i] = walk.advance(walkers[i], seed, records[i]) ? 1 : 0;
             }
         });
+        walk.end_round(walkers, settled, goes_on);
         std::size_t kept = 0;
         for (std::size_t i = 0; i < walkers.size(); ++i) {
             if (goes_on[i] != 0) walkers[kept++] = walkers[i];
