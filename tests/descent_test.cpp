@@ -123,7 +123,7 @@ Walk judge_paths(const RecordingSource& source, std::span<const SettledSeed> set
 Walk judge_walk(VisibilitySource& source, std::span<const Seed> seeds) {
     RecordingSource recording(source);
     NewtonOptions options;
-    options.core_nearest = 0.0;
+    options.core_nearest = 0.0;  // to join another is no step
     const auto settled = settle_seeds_newton(recording, seeds, options);
     Walk walk = judge_paths(recording, settled, options);
     for (const SettledSeed& seed : settled) walk.refused += seed.evaluations - seed.path.size();

@@ -6,7 +6,12 @@
 
 namespace zskel {
 
-/// For maps from the cells of a lattice.
+/// The cell of a lattice of cubes that a point lies in.
+inline glm::i64vec3 cell_of(const glm::dvec3& point, double size) {
+    return glm::i64vec3(glm::floor(point / size));
+}
+
+/// For maps from such cells.
 struct LatticeHash {
     std::size_t operator()(const glm::i64vec3& cell) const {
         const glm::u64vec3 c(cell);  // wraps round where signed numbers would overflow

@@ -32,13 +32,13 @@ class PlaceGrid {
   public:
     PlaceGrid(const WeldedMesh& mesh, const std::vector<std::uint32_t>& places, double cell)
         : cell_(cell) {
-        for (const std::uint32_t p : places) cells_[cell_of(mesh.positions[p])].push_back(p);
+        for (const std::uint32_t p : places) cells_[cell_of(mesh.positions[p], cell_)].push_back(p);
     }
 
     /// All within a cell's length of a point, and some beyond.
     template <typename Visit>
     void near(const DVec3& point, const Visit& visit) const {
-        const glm::i64vec3 middle = cell_of(point);
+        const glm::i64vec3 middle = cell_of(point, cell_);
         for (int n = 0; n < 27; ++n) {
             const auto found =
                 cells_.find(middle + glm::i64vec3(n % 3 - 1, n / 3 % 3 - 1, n / 9 - 1));
@@ -48,8 +48,6 @@ class PlaceGrid {
     }
 
   private:
-    glm::i64vec3 cell_of(const DVec3& p) const { return glm::i64vec3(glm::floor(p / cell_)); }
-
     double cell_;
     std::unordered_map<glm::i64vec3, std::vector<std::uint32_t>, LatticeHash> cells_;
 };

@@ -339,8 +339,7 @@ std::vector<Surfel> merge_surfels(const std::vector<Surfel>& surfels, double cel
     std::unordered_map<glm::i64vec3, std::size_t, LatticeHash> known;
     std::vector<Surfel> out;
     for (const Surfel& s : surfels) {
-        const glm::i64vec3 at(glm::floor(s.position / cell));
-        const auto [place, is_new] = known.try_emplace(at, out.size());
+        const auto [place, is_new] = known.try_emplace(cell_of(s.position, cell), out.size());
         if (is_new) {
             out.push_back(s);
         } else if (s.spacing < out[place->second].spacing) {

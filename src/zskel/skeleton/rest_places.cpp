@@ -7,17 +7,13 @@ namespace {
 
 constexpr float kApart = 2.0f / 3.0f;  // that places lie, in radii of their cores
 
-glm::i64vec3 cell_of(const DVec3& point, double size) {
-    return glm::i64vec3(glm::floor(point / size));
-}
-
 }  // namespace
 
 void RestPlaces::add(const Vec3& place, float nearest) {
     const float radius = share_ * nearest;
     if (!(radius > 0.0f) || !std::isfinite(radius) || core_about(place, kApart)) return;
     const int exponent = std::ilogb(radius) + 2;
-    grids_[exponent][cell_of(place, std::ldexp(1.0, exponent))].push_back({place, radius});
+    grids_[exponent][cell_of(DVec3(place), std::ldexp(1.0, exponent))].push_back({place, radius});
 }
 
 std::optional<Vec3> RestPlaces::find(const Vec3& point) const {
