@@ -202,8 +202,8 @@ TEST_CASE("extract_skeleton: an active contour keeps nearer to a ring's core") {
     };
     ExtractOptions contour;
     contour.newton.refine = active_contour();
-    CHECK(off_core(contour) < 0.6 * off_core({}));
-    CHECK(off_core(contour) < 0.001);
+    CHECK(off_core(contour) < 0.7 * off_core({}));
+    CHECK(off_core(contour) < 0.0006);  // its facets lie up to 0.0004 within the ring
 }
 
 TEST_CASE("write_skeleton: OBJ lines have a v for each node and an l for each edge") {

@@ -11,6 +11,7 @@
 #include "zskel/mesh/bounds.h"
 #include "zskel/mesh/read_mesh.h"
 #include "zskel/mesh/self_intersections.h"
+#include "zskel/rig/joints.h"
 #include "zskel/rig/skinning.h"
 
 using namespace zskel;
@@ -366,8 +367,9 @@ TEST_CASE("deform: each limb of our creatures bent by 45 degrees, and no other g
     if (name.empty()) return;
     const Mesh mesh = read_mesh(std::string(ZSKEL_MODELS "/") + name + ".obj");
     const ExtractResult result = test::extract(mesh, {}, 10);
-    const Armature armature = build_armature(result.graph, mesh.triangles, {});
+    Armature armature = build_armature(result.graph, mesh.triangles, {});
     const auto weights = skin_weights(mesh, result.graph, armature, {});
+    centre_joints(mesh, weights, armature);
     const std::vector<Branch> branches = find_branches(result.graph);
     const auto is_end = [&](std::size_t b) {
         return b < branches.size() &&

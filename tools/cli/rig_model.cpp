@@ -1,6 +1,7 @@
 #include "rig_model.h"
 
 #include "zskel/core/log.h"
+#include "zskel/rig/joints.h"
 
 namespace zskel::cli {
 namespace {
@@ -49,6 +50,7 @@ RiggedModel rig_model(const Mesh& mesh, const RigOptions& options) {
     rig.armature = build_armature(result.graph, mesh.triangles, options.armature);
     say_what_was_left_out(rig.armature);
     rig.weights = skin_weights(mesh, result.graph, rig.armature, options.weights);
+    centre_joints(mesh, rig.weights, rig.armature);
     rig.graph = std::move(result.graph);
     return rig;
 }

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "zskel/core/parallel.h"
+#include "zskel/skeleton/climb.h"
 #include "zskel/skeleton/section.h"
 
 namespace zskel {
@@ -22,6 +23,7 @@ class Centring {
     void run() {
         for (int i = 0; i < options_.smoothing_sweeps; ++i) smooth(options_.smoothing);
         weigh_centring();
+        climb();
         for (int i = 0; i < options_.sweeps; ++i) {
             centre();
             smooth(options_.smoothing);
@@ -89,7 +91,20 @@ class Centring {
         }
     }
 
-    // One pass over all nodes within branches, each towards the centre of its section.
+    void climb() {
+        for (std::uint32_t n = 0; n < graph_.nodes.size(); ++n) {
+            const Node& node = graph_.nodes[n];
+            if (!node.is_removed && node.links.size() > 2) climbs_.push_back({n, {}});
+        }
+        parallel_for(climbs_.size(), 4, [&](std::size_t begin, std::size_t end) {
+            for (std::size_t i = begin; i < end; ++i)
+                climbs_[i].second = climb_to_thickest(graph_.at(climbs_[i].first),
+                                                      options_.junction_reach_radii, query_);
+        });
+    }
+
+    // One pass over all nodes within branches, each towards the centre of its section, and over all
+    // junctions, each towards the thickest place near it.
     void centre() {
         std::vector<std::pair<std::uint32_t, Vec3>> targets;
         for (std::uint32_t n = 0; n < graph_.nodes.size(); ++n) {
@@ -98,6 +113,9 @@ class Centring {
         parallel_for(targets.size(), 4, [&](std::size_t begin, std::size_t end) {
             for (std::size_t i = begin; i < end; ++i) targets[i].second = centred(targets[i].first);
         });
+        const auto pull = static_cast<float>(options_.junction_pull);
+        for (const auto& [n, climb] : climbs_)
+            targets.emplace_back(n, glm::mix(graph_.at(n), climb.top, pull * climb.steepness));
         move(targets);
     }
 
@@ -186,6 +204,7 @@ class Centring {
     std::vector<Ball> balls_;  // inscribed, where each node last looked
     std::vector<Section> sections_;
     std::vector<float> centring_;  // of every node: share of the way that a sweep takes
+    std::vector<std::pair<std::uint32_t, Climb>> climbs_;  // of every junction
 };
 
 }  // namespace

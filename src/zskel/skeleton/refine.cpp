@@ -13,7 +13,7 @@ RefineOptions active_contour() {
     RefineOptions options;
     options.centring = 0.5;
     options.smoothing = 0.4;
-    options.unshrink = 0.33;
+    options.unshrink = 0.36;
     return options;
 }
 

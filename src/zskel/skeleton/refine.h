@@ -17,15 +17,19 @@ struct RefineOptions {
                                       ///< 0: by the radius
     int smoothing_sweeps = 12;        ///< before, of smoothing alone
     int sweeps = 60;                  ///< of centring and smoothing
-    double centring = 0.25;  ///< share of the way to the section's centre that a sweep takes
+    double centring = 0.35;  ///< share of the way to the section's centre that a sweep takes
     double longest_move_radii = 0.3;  ///< but no longer than this, in inscribed radii
-    double junction_radii = 0.3;      ///< nearer to a junction the centring fades: a section says
-                                      ///< little where branches part
-    double smoothing = 0.7;           ///< share of the way to the middle of the neighbours,
-    double unshrink = 0.55;           ///< and then away from it, so that bends are not cut
-    double zip_radii = 0.3;           ///< branches nearer to each other than this go side by side;
-    double zip_least_radii = 0.6;     ///< they become one where they do so as far as this
-    double aim_radii = 1.75;          ///< the last stretch of so many radii goes straight on
+    double junction_radii = 1.7;      ///< nearer to a junction the centring fades: a section says
+                                      ///< little where branches part;
+    double junction_pull = 0.25;  ///< a sweep takes a junction so much of the way to the thickest
+                                  ///< place near it, times how steeply the radius grows to there:
+                                  ///< in a flat section it says little
+    double junction_reach_radii = 0.5;  ///< how near that is, in the radius at the junction
+    double smoothing = 0.7;             ///< share of the way to the middle of the neighbours,
+    double unshrink = 0.55;             ///< and then away from it, so that bends are not cut
+    double zip_radii = 0.3;        ///< branches nearer to each other than this go side by side;
+    double zip_least_radii = 0.6;  ///< they become one where they do so as far as this
+    double aim_radii = 1.75;       ///< the last stretch of so many radii goes straight on
     double aim_least =
         0.7;  ///< unless that is shorter than this share of it, or longer by a radius
 };
