@@ -29,6 +29,26 @@ TEST_CASE(
     CHECK(after.seeds == before.seeds);
 }
 
+TEST_CASE("zip_branches: a limb that goes on beside what begins at the next junction comes along") {
+    const Tube tube;
+    const float r = tube.radius;
+    CurveGraph graph;
+    const std::uint32_t joint = graph.add({0, 0, -2 * r});
+    draw(graph, joint, {{0, 0, -3 * r}});
+    const std::uint32_t near = draw(graph, joint, {{0, 0, -1.6f * r}});
+    draw(graph, near, {{0, 0.8f * r, -1.5f * r}});
+    draw(graph, near, {{0, 0, 3 * r}});
+    draw(graph, joint, {{0.1f * r, 0, -1.9f * r}, {0.1f * r, 0, 0}, {0.8f * r, 0, 0.4f * r}});
+    const Ends before = ends_of(graph);
+    CHECK(zip_branches(graph, tube.query, {}) == 2);
+    const Ends after = ends_of(graph);
+    REQUIRE(after.junctions.size() == 2);
+    CHECK(after.junctions[0] == graph.at(near));
+    CHECK(std::abs(after.junctions[1].z) < 0.5f * r);
+    CHECK(after.ends == before.ends);
+    CHECK(after.seeds == before.seeds);
+}
+
 TEST_CASE("zip_branches: what parts at once stays, and so do an end beside a branch, and a cycle") {
     const Tube tube;
     const float r = tube.radius;

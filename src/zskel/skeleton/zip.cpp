@@ -8,6 +8,8 @@ namespace zskel {
 namespace {
 
 constexpr float kLeastLeft = 0.5f;  // of a branch with an end, in radii
+// Of one branch, how near another is that goes the same way round all handles: within its balls.
+constexpr float kSameWayRadii = 0.9f;
 
 using Strand = std::vector<std::uint32_t>;
 
@@ -44,6 +46,7 @@ class Zipper {
             for (std::size_t b = a + 1; b < strands.size(); ++b) {
                 const bool is_ring = strands[a].back() == junction;
                 if (!is_ring && zip(strands[a], strands[b])) return true;
+                if (zip_past(strands[b], strands[a])) return true;
             }
         }
         return false;
@@ -51,14 +54,38 @@ class Zipper {
 
     // Joins the one that goes to where it leaves the one that stays.
     bool zip(const Strand& stays, const Strand& goes) {
-        const auto [last, beside] = side_by_side(stays, goes);
+        const auto [last, beside] =
+            side_by_side(stays, goes, static_cast<float>(options_.zip_radii));
         if (last == 0 || beside == 0) return false;
         const Vec3& start = graph_.at(stays.front());
         const std::uint32_t joint = stays[beside];
-        const std::uint32_t next = goes[last + 1];
         const float least =
             static_cast<float>(options_.zip_least_radii) * query_.nearest(start).distance;
         if (glm::distance(start, graph_.at(joint)) < least) return false;
+        return join(goes, last, joint);
+    }
+
+    // Where the longer of two goes the other's way and comes by the junction at which that ends,
+    // however near, it is joined there: it may go on beside what begins there.
+    bool zip_past(const Strand& stays, const Strand& goes) {
+        const std::uint32_t junction = stays.back();
+        const bool is_round = goes.back() == junction || goes.back() == goes.front();
+        const std::size_t most = side_by_side(stays, goes, kSameWayRadii).last;
+        if (graph_.nodes[junction].links.size() < 3 || is_round || most == 0) return false;
+        const Vec3& there = graph_.at(junction);
+        std::size_t last = 1;
+        for (std::size_t k = 2; k <= most; ++k) {
+            if (glm::distance(graph_.at(goes[k]), there) <
+                glm::distance(graph_.at(goes[last]), there))
+                last = k;
+        }
+        const float near = static_cast<float>(options_.zip_radii) * query_.nearest(there).distance;
+        return glm::distance(graph_.at(goes[last]), there) <= near && join(goes, last, junction);
+    }
+
+    // Takes a strand off up to its node `last`, and joins what is left of it.
+    bool join(const Strand& goes, std::size_t last, std::uint32_t joint) {
+        const std::uint32_t next = goes[last + 1];
         // An end that lies beside another branch stays as it is.
         const bool has_end = graph_.nodes[goes.back()].links.size() == 1;
         const Strand left(goes.begin() + static_cast<std::ptrdiff_t>(last), goes.end());
@@ -79,8 +106,8 @@ class Zipper {
         std::size_t beside = 0;  // of `stays`, nearest to it
     };
 
-    // How far two strands go side by side; neither to its last node.
-    Places side_by_side(const Strand& stays, const Strand& goes) const {
+    // How far two strands go side by side, in radii; neither to its last node.
+    Places side_by_side(const Strand& stays, const Strand& goes, float radii) const {
         Places out;
         std::size_t i = 0;
         for (std::size_t k = 1; k + 1 < goes.size(); ++k) {
@@ -89,7 +116,7 @@ class Zipper {
                                                glm::distance(p, graph_.at(stays[i])))
                 ++i;
             const float aside = distance_to(points_round(stays, i), p);
-            if (aside > static_cast<float>(options_.zip_radii) * query_.nearest(p).distance) break;
+            if (aside > radii * query_.nearest(p).distance) break;
             out = {k, i};
         }
         return out;
