@@ -52,31 +52,47 @@ TEST_CASE("centre_joints: a joint goes to the centroid of the cut, and bends kee
     CHECK(std::abs(tube.volume_change({0, 0, 1})) > 0.01);  // about pi/4 of 0.04 times the section
     centre_joints(tube.mesh, tube.weights, tube.armature);
     const std::vector<Bone>& bones = tube.armature.bones;
-    CHECK(glm::distance(bones[2].head, {1, 0.04, 0}) < 1e-6);
-    CHECK(bones[1].tail == bones[2].head);
-    CHECK(bones[2].tail == DVec3(2, 0, 0));
-    for (const DVec3& still : {bones[0].head, bones[0].tail, bones[1].head})
-        CHECK(still == DVec3(0.0));  // all hangs on them: no cut
+    CHECK(glm::distance(joint_of(bones[2]), {1, 0.04, 0}) < 1e-6);
+    CHECK(bones[2].head == DVec3(1, 0, 0));
+    for (const std::uint32_t all_hangs_on : {0u, 1u})
+        CHECK(bones[all_hangs_on].to_joint == DVec3(0.0));
     for (const DVec3& axis : {DVec3(0, 0, 1), DVec3(0, 1, 0), glm::normalize(DVec3(0, 1, -1))})
         CHECK(std::abs(tube.volume_change(axis)) < 1e-3);
 }
 
 TEST_CASE("centre_joints: what is centred or too far off stays") {
     const auto moved = [](Tube tube) {
-        const DVec3 before = tube.armature.bones[2].head;
         centre_joints(tube.mesh, tube.weights, tube.armature);
-        return glm::distance(tube.armature.bones[2].head, before);
+        return glm::length(tube.armature.bones[2].to_joint);
     };
     CHECK(moved(Tube(0.0)) < 1e-6);
     CHECK(moved(Tube(0.7 * kRadius)) == doctest::Approx(0.7 * kRadius));
     CHECK(moved(Tube(0.8 * kRadius)) == 0.0);
 }
 
-TEST_CASE("centre_joints: a tail where several bones start stays with the skeleton") {
+TEST_CASE("centre_joints: openings count as capped, turned faces as they should be") {
+    Tube open(0.04);
+    std::erase_if(open.mesh.triangles, [&](const Triangle& t) {  // beyond 1.95: no tip
+        return std::min({open.mesh.positions[t.x].x, open.mesh.positions[t.y].x,
+                         open.mesh.positions[t.z].x}) > 1.95;
+    });
+    Tube turned(0.04);
+    for (std::size_t t = 0; t < turned.mesh.triangles.size(); ++t) {
+        if (t % 7 < 3) std::swap(turned.mesh.triangles[t].x, turned.mesh.triangles[t].y);
+    }
+    for (Tube* tube : {&open, &turned}) {
+        centre_joints(tube->mesh, tube->weights, tube->armature);
+        CHECK(glm::distance(joint_of(tube->armature.bones[2]), {1, 0.04, 0}) < 1e-6);
+    }
+}
+
+TEST_CASE("centre_joints: twists go about the bone's direction, through its joint") {
     Tube tube(0.04);
-    tube.armature.bones.push_back({"branch1.0", 1, 1, {1, 0, 0}, {1, 1, 0}, kRadius});
     centre_joints(tube.mesh, tube.weights, tube.armature);
-    CHECK(tube.armature.bones[1].tail == DVec3(1, 0, 0));
-    CHECK(tube.armature.bones[2].head.y == doctest::Approx(0.04));
-    CHECK(tube.armature.bones[3].head == DVec3(1, 0, 0));  // nothing follows it
+    Move twist;
+    twist.bones = {2};
+    twist.twist = std::numbers::pi / 2.0;
+    const auto motions = bone_motions(tube.armature, {twist});
+    const DVec3 top = motions[2].turn * DVec3(2, 0.04, 0.1) + motions[2].move;
+    CHECK(glm::distance(top, {2, 0.04 - 0.1, 0}) < 1e-6);
 }

@@ -23,7 +23,7 @@ struct Arguments {
     RigOptions rig;
 };
 
-// The bones as a graph: a node at every head and at the tail of the last ones.
+// The bones as a graph: a node at every joint and at the tail of the last ones.
 SkeletonGraph graph_of(const Armature& armature) {
     SkeletonGraph graph;
     const auto add = [&](const DVec3& position, std::uint32_t parent) {
@@ -31,7 +31,7 @@ SkeletonGraph graph_of(const Armature& armature) {
         graph.nodes.push_back({.position = position});
         if (parent != kNone) graph.edges.push_back({.source = parent, .target = number});
     };
-    for (const Bone& bone : armature.bones) add(bone.head, bone.parent);
+    for (const Bone& bone : armature.bones) add(joint_of(bone), bone.parent);
     for (const std::uint32_t b : last_bones(armature)) add(armature.bones[b].tail, b);
     return graph;
 }

@@ -44,7 +44,7 @@ bool stretches(const std::vector<RigKey>& keys, std::size_t bone) {
 Joints joints_of(const Armature& armature, const std::vector<RigKey>& keys) {
     Joints joints;
     for (const Bone& bone : armature.bones)
-        joints.all.push_back({Joint::Kind::Bone, bone.name, bone.head, bone.parent});
+        joints.all.push_back({Joint::Kind::Bone, bone.name, joint_of(bone), bone.parent});
     for (const std::uint32_t b : last_bones(armature))
         joints.all.push_back(
             {Joint::Kind::End, armature.bones[b].name + "_end", armature.bones[b].tail, b});
@@ -154,13 +154,13 @@ Json animation_of(GltfBuilder& builder, const Armature& armature, const Joints& 
             if (joint.parent != kNone) before = key.motions[joint.parent];
             const DVec3 from = joint.parent == kNone
                                    ? DVec3(0.0)
-                                   : armature.bones[joint.parent].head + before.shift;
+                                   : joints.all[joint.parent].position + before.shift;
             if (joint.kind == Joint::Kind::Bone) {
                 const BoneMotion& motion = key.motions[j];
-                const DVec3 head = motion.turn * (joint.position + motion.shift) + motion.move;
+                const DVec3 place = motion.turn * (joint.position + motion.shift) + motion.move;
                 const glm::dquat back = glm::conjugate(before.turn);
                 turns.push_back(back * motion.turn);
-                places.push_back(back * (head - before.move) - from);
+                places.push_back(back * (place - before.move) - from);
             } else if (joint.kind == Joint::Kind::End) {
                 places.push_back(joint.position + end_shift(before, joint.parent) - from);
             } else {

@@ -305,7 +305,7 @@ class ArmatureBuilder {
             thick /= static_cast<double>(chain.joints[k] - chain.joints[k - 1] + 1);
             out_.bones.push_back({fmt::format("branch{}.{}", branch, bones_of_branch_[branch]++),
                                   chain.last_bone, branch, at(nodes[chain.joints[k - 1]]),
-                                  at(nodes[chain.joints[k]]), thick});
+                                  at(nodes[chain.joints[k]]), thick, DVec3(0.0)});
             chain.last_bone = bone;
         }
     }
@@ -336,6 +336,10 @@ class ArmatureBuilder {
 };
 
 }  // namespace
+
+DVec3 joint_of(const Bone& bone) {
+    return bone.head + bone.to_joint;
+}
 
 double share_along(const Bone& bone, const DVec3& point) {
     const DVec3 along = bone.tail - bone.head;

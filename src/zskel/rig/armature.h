@@ -17,6 +17,7 @@ struct Bone {
     DVec3 head{0.0};               ///< where it starts, model space
     DVec3 tail{0.0};               ///< where it ends; a hub has no length
     double radius = 0.0;           ///< mean of the skeleton's along it
+    DVec3 to_joint{0.0};           ///< from its head to where it turns; see `centre_joints`
 };
 
 /// Where a loop of the skeleton was opened, since bones form trees.
@@ -41,6 +42,9 @@ struct ArmatureOptions {
     double longest_radii = 5.0;  ///< and is about so long at most: bones end at nodes
     std::size_t max_bones = 0;   ///< hubs, bones and ends of limbs together; 0: no bound
 };
+
+/// Where a bone turns, model space.
+DVec3 joint_of(const Bone& bone);
 
 /// Where a point lies along a bone: 0 at its head, 1 at its tail; 0 for a hub.
 double share_along(const Bone& bone, const DVec3& point);

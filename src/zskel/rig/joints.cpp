@@ -2,10 +2,12 @@
 
 #include <cmath>
 
+#include "zskel/mesh/surface.h"
+
 namespace zskel {
 namespace {
 
-constexpr double kMostRadii = 0.75;  // that a head moves
+constexpr double kMostRadii = 0.75;  // from a head to its joint
 constexpr double kLeastArea = 0.1;   // of a cut across a limb, in squares of the bone's radius
 
 // How the volume changes when what hangs on a bone moves by d and turns by the small angles n:
@@ -15,14 +17,18 @@ struct Gradient {
     DVec3 moment{0.0};
 };
 
-// A third of the area vectors of the triangles round every vertex: how the volume grows with it.
+// A third of the area vectors of the triangles round every vertex, those of caps among them: how
+// the volume grows with it. Of vertices at one place one has it all.
 std::vector<DVec3> volume_gradients(const Mesh& mesh) {
+    const PreparedSurface prepared = prepare_surface(mesh, WorldSize::UnitCube, {.has_caps = true});
     std::vector<DVec3> out(mesh.positions.size(), DVec3(0.0));
-    for (const Triangle& t : mesh.triangles) {
-        const DVec3& a = mesh.positions[t.x];
+    for (const Triangle& t : prepared.surface.triangles) {
+        const Triangle v(prepared.input_vertex[t.x], prepared.input_vertex[t.y],
+                         prepared.input_vertex[t.z]);
+        const DVec3& a = mesh.positions[v.x];
         const DVec3 third =
-            glm::cross(mesh.positions[t.y] - a, mesh.positions[t.z] - a) * (0.5 / 3.0);
-        for (int k = 0; k < 3; ++k) out[t[k]] += third;
+            glm::cross(mesh.positions[v.y] - a, mesh.positions[v.z] - a) * (0.5 / 3.0);
+        for (int k = 0; k < 3; ++k) out[v[k]] += third;
     }
     return out;
 }
@@ -57,24 +63,14 @@ std::vector<Gradient> bone_gradients(const Mesh& mesh,
 void centre_joints(const Mesh& mesh, const std::vector<std::vector<Influence>>& weights,
                    Armature& armature) {
     const std::vector<Gradient> gradients = bone_gradients(mesh, weights, armature);
-    const std::vector<Bone> before = armature.bones;
-    std::vector<std::size_t> starts_at_tail(before.size(), 0);
-    for (std::size_t b = 0; b < before.size(); ++b) {
-        const std::uint32_t parent = before[b].parent;
-        if (parent != kNone && before[b].head == before[parent].tail) ++starts_at_tail[parent];
-    }
-    for (std::size_t b = 0; b < before.size(); ++b) {
-        const Bone& bone = before[b];
-        if (bone.parent == kNone) continue;
+    for (std::size_t b = 0; b < armature.bones.size(); ++b) {
+        Bone& bone = armature.bones[b];
         const Gradient& gradient = gradients[b];
         const double square = glm::dot(gradient.area, gradient.area);
-        if (!(std::sqrt(square) > kLeastArea * bone.radius * bone.radius)) continue;
+        const bool is_cut = std::sqrt(square) > kLeastArea * bone.radius * bone.radius;
+        if (bone.parent == kNone || !is_cut) continue;
         const DVec3 move = glm::cross(gradient.area, gradient.moment) / square;
-        if (!(glm::length(move) <= kMostRadii * bone.radius)) continue;
-        armature.bones[b].head = bone.head + move;
-        const Bone& parent = before[bone.parent];
-        if (parent.parent != kNone && bone.head == parent.tail && starts_at_tail[bone.parent] == 1)
-            armature.bones[bone.parent].tail = armature.bones[b].head;
+        if (glm::length(move) <= kMostRadii * bone.radius) bone.to_joint = move;
     }
 }
 

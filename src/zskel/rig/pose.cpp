@@ -171,9 +171,9 @@ std::vector<BoneMotion> bone_motions(const Armature& armature, const Pose& pose)
             before = of_parent.turn;
             moved_before = of_parent.move;
         }
-        const DVec3 head = bone.head + motion.shift;
+        const DVec3 joint = joint_of(bone) + motion.shift;
         motion.turn = before * turns[b] * twists[b];
-        motion.move = before * head + moved_before - motion.turn * head;
+        motion.move = before * joint + moved_before - motion.turn * joint;
     }
     return motions;
 }

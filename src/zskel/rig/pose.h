@@ -13,7 +13,7 @@ namespace zskel {
 struct Move {
     std::vector<std::uint32_t> bones;  ///< from the root outwards
     DVec3 axis{0.0};                   ///< that it turns and bends about, model space; unit
-    double turn = 0.0;                 ///< radians, at the first bone's head
+    double turn = 0.0;                 ///< radians, at the first bone's joint
     double bend = 0.0;                 ///< radians, shared out evenly over its bones
     double twist = 0.0;                ///< radians about its own bones, shared out evenly
     double stretch = 1.0;              ///< factor of its length

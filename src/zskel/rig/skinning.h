@@ -20,7 +20,8 @@ std::vector<DVec3> deform(const Mesh& mesh, const Armature& armature,
                           const std::vector<std::vector<Influence>>& weights,
                           const std::vector<BoneMotion>& motions, Skinning skinning);
 
-/// The skeleton in that pose. Nodes at joints go with the first of the bones that meet there.
+/// The skeleton in that pose. Nodes at joints go with the first of the bones that meet there, so
+/// that edges get longer or shorter where a bone turns beside its head.
 SkeletonGraph deform_skeleton(const SkeletonGraph& graph, const Armature& armature,
                               const std::vector<BoneMotion>& motions);
 

@@ -7,7 +7,7 @@ namespace {
 
 // In radii of where the climb begins; so every step stays in the inscribed ball.
 constexpr float kFirstStep = 0.25f;
-constexpr float kLastStep = 0.02f;
+constexpr float kLastStep = 0.03125f;
 constexpr float kLeastGain = 1.001f;  // less is rounding: a plate is as thick wherever one stands
 
 // To the faces and the corners of a cube.

@@ -11,7 +11,7 @@ struct Climb {
 };
 
 /// From `from` to the thickest place round it, no farther away than `reach` of the radius there, in
-/// steps that stay inside. A pattern search, whose last steps are a fiftieth of the radius; it
+/// steps that stay inside. A pattern search, whose last steps are a 32nd of the radius; it
 /// stays where it is as thick all round.
 Climb climb_to_thickest(const Vec3& from, double reach, const SurfaceQuery& query);
 

@@ -54,27 +54,28 @@ class Zipper {
 
     // Joins the one that goes to where it leaves the one that stays.
     bool zip(const Strand& stays, const Strand& goes) {
-        const auto [last, beside] =
-            side_by_side(stays, goes, static_cast<float>(options_.zip_radii));
-        if (last == 0 || beside == 0) return false;
+        const Places places = side_by_side(stays, goes, static_cast<float>(options_.zip_radii));
+        if (places.last == 0 || places.beside == 0) return false;
         const Vec3& start = graph_.at(stays.front());
-        const std::uint32_t joint = stays[beside];
+        const std::uint32_t joint = stays[places.beside];
         const float least =
             static_cast<float>(options_.zip_least_radii) * query_.nearest(start).distance;
         if (glm::distance(start, graph_.at(joint)) < least) return false;
-        return join(goes, last, joint);
+        return join(goes, places.last, joint);
     }
 
-    // Where the longer of two goes the other's way and comes by the junction at which that ends,
-    // however near, it is joined there: it may go on beside what begins there.
+    // Where the longer of two goes the other's way to the junction at which that ends, however
+    // near, it is joined there: it may go on beside what begins there.
     bool zip_past(const Strand& stays, const Strand& goes) {
         const std::uint32_t junction = stays.back();
-        const bool is_round = goes.back() == junction || goes.back() == goes.front();
-        const std::size_t most = side_by_side(stays, goes, kSameWayRadii).last;
-        if (graph_.nodes[junction].links.size() < 3 || is_round || most == 0) return false;
+        const bool is_round =
+            goes.back() == junction || goes.back() == goes.front() || junction == stays.front();
+        if (graph_.nodes[junction].links.size() < 3 || is_round) return false;
+        const Places places = side_by_side(stays, goes, kSameWayRadii);
+        if (places.at_end == 0) return false;
         const Vec3& there = graph_.at(junction);
-        std::size_t last = 1;
-        for (std::size_t k = 2; k <= most; ++k) {
+        std::size_t last = places.at_end;
+        for (std::size_t k = last + 1; k <= places.last; ++k) {
             if (glm::distance(graph_.at(goes[k]), there) <
                 glm::distance(graph_.at(goes[last]), there))
                 last = k;
@@ -104,6 +105,7 @@ class Zipper {
     struct Places {
         std::size_t last = 0;    // of `goes`, still beside
         std::size_t beside = 0;  // of `stays`, nearest to it
+        std::size_t at_end = 0;  // of `goes`, the first beside the last segment of `stays`
     };
 
     // How far two strands go side by side, in radii; neither to its last node.
@@ -117,7 +119,9 @@ class Zipper {
                 ++i;
             const float aside = distance_to(points_round(stays, i), p);
             if (aside > radii * query_.nearest(p).distance) break;
-            out = {k, i};
+            out.last = k;
+            out.beside = i;
+            if (out.at_end == 0 && i + 2 >= stays.size()) out.at_end = k;
         }
         return out;
     }
