@@ -23,16 +23,22 @@ struct Arguments {
     RigOptions rig;
 };
 
-// The bones as a graph: a node at every joint and at the tail of the last ones.
+// The bones as a graph: a node at every joint and tail, an edge along every bone, and one to it
+// from the tail of what it hangs on.
 SkeletonGraph graph_of(const Armature& armature) {
     SkeletonGraph graph;
-    const auto add = [&](const DVec3& position, std::uint32_t parent) {
+    const auto add = [&](const DVec3& position, std::uint32_t from) {
+        if (from != kNone && graph.nodes[from].position == position) return from;
         const auto number = static_cast<std::uint32_t>(graph.nodes.size());
         graph.nodes.push_back({.position = position});
-        if (parent != kNone) graph.edges.push_back({.source = parent, .target = number});
+        if (from != kNone) graph.edges.push_back({.source = from, .target = number});
+        return number;
     };
-    for (const Bone& bone : armature.bones) add(joint_of(bone), bone.parent);
-    for (const std::uint32_t b : last_bones(armature)) add(armature.bones[b].tail, b);
+    std::vector<std::uint32_t> tails;  // of every bone
+    for (const Bone& bone : armature.bones) {
+        const std::uint32_t from = bone.parent == kNone ? kNone : tails[bone.parent];
+        tails.push_back(add(bone.tail, add(joint_of(bone), from)));
+    }
     return graph;
 }
 
