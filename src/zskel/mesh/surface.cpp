@@ -231,4 +231,13 @@ void derive_edges(Surface& surface) {
         sides, [&](std::size_t first, std::size_t) { surface.edges.push_back(sides[first].edge); });
 }
 
+std::vector<Triangle> input_triangles(const PreparedSurface& prepared) {
+    const std::vector<std::uint32_t>& vertex = prepared.input_vertex;
+    std::vector<Triangle> out;
+    out.reserve(prepared.surface.triangles.size());
+    for (const Triangle& t : prepared.surface.triangles)
+        out.emplace_back(vertex[t.x], vertex[t.y], vertex[t.z]);
+    return out;
+}
+
 }  // namespace zskel

@@ -83,6 +83,9 @@ struct PreparedSurface {
 PreparedSurface prepare_surface(const Mesh& mesh, WorldSize size = WorldSize::UnitCube,
                                 const RepairOptions& options = {});
 
+/// The triangles of a prepared surface, those of caps among them, between input vertices.
+std::vector<Triangle> input_triangles(const PreparedSurface& prepared);
+
 /// Fills the normals from positions and triangles.
 void derive_normals(Surface& surface);
 

@@ -22,13 +22,11 @@ struct Gradient {
 std::vector<DVec3> volume_gradients(const Mesh& mesh) {
     const PreparedSurface prepared = prepare_surface(mesh, WorldSize::UnitCube, {.has_caps = true});
     std::vector<DVec3> out(mesh.positions.size(), DVec3(0.0));
-    for (const Triangle& t : prepared.surface.triangles) {
-        const Triangle v(prepared.input_vertex[t.x], prepared.input_vertex[t.y],
-                         prepared.input_vertex[t.z]);
-        const DVec3& a = mesh.positions[v.x];
+    for (const Triangle& t : input_triangles(prepared)) {
+        const DVec3& a = mesh.positions[t.x];
         const DVec3 third =
-            glm::cross(mesh.positions[v.y] - a, mesh.positions[v.z] - a) * (0.5 / 3.0);
-        for (int k = 0; k < 3; ++k) out[v[k]] += third;
+            glm::cross(mesh.positions[t.y] - a, mesh.positions[t.z] - a) * (0.5 / 3.0);
+        for (int k = 0; k < 3; ++k) out[t[k]] += third;
     }
     return out;
 }

@@ -70,15 +70,8 @@ struct Welded {
 Welded weld(const Mesh& mesh) {
     const PreparedSurface prepared = prepare_surface(mesh);
     const auto& closed = prepared.component_closed;
-    std::vector<std::uint32_t> vertex_at(prepared.surface.positions.size(), 0);
-    for (std::uint32_t v = 0; v < mesh.positions.size(); ++v) {
-        if (prepared.surface_vertex[v] != kNone) vertex_at[prepared.surface_vertex[v]] = v;
-    }
-    Welded out;
-    out.is_closed = std::find(closed.begin(), closed.end(), false) == closed.end();
-    for (const Triangle& t : prepared.surface.triangles)
-        out.triangles.emplace_back(vertex_at[t.x], vertex_at[t.y], vertex_at[t.z]);
-    return out;
+    return {input_triangles(prepared),
+            std::find(closed.begin(), closed.end(), false) == closed.end()};
 }
 
 }  // namespace
