@@ -1,11 +1,14 @@
 #include <doctest/doctest.h>
 
+#include <algorithm>
 #include <set>
 
 #include "support/shapes.h"
+#include "support/voxels.h"
 #include "zskel/mesh/vertex_graph.h"
 #include "zskel/skeleton/coverage.h"
 #include "zskel/skeleton/girth.h"
+#include "zskel/skeleton/limbs.h"
 #include "zskel/skeleton/patches.h"
 #include "zskel/skeleton/section.h"
 
@@ -104,4 +107,55 @@ TEST_CASE("the vertices of every node are one patch, by the nearest node of thei
         }
     }
     CHECK(met.size() == 10);
+}
+
+TEST_CASE("a limb goes straight where the connections along its surface lead out and back") {
+    // An arm on a cube, and clusters along its axis; from 4 the surface leads by 3 to 2, beside 4.
+    const Shape shape(test::voxels(
+        {5, 5, 20}, 2, [](int x, int y, int z) { return z < 5 || (x == 2 && y == 2); }));
+    const auto on_axis = [&](double aside, double z) { return shape.at(2.5 + aside, 2.5, z); };
+    Clusters clusters;
+    clusters.centers = {on_axis(0, 2.5),    on_axis(0, 6),       on_axis(0.05, 8.1),
+                        on_axis(0.1, 11.0), on_axis(-0.05, 8.2), on_axis(0, 19.3)};
+    clusters.of_point = {0, 1, 2, 3, 4, 5};
+    const std::vector<float> girths = girths_at(shape.query, clusters.centers);
+    ClusterNetwork network;
+    std::vector<glm::uvec2> links;
+    for (std::uint32_t c = 0; c + 1 < clusters.centers.size(); ++c) {
+        Connection connection;
+        connection.a = c;
+        connection.b = c + 1;
+        connection.path = {clusters.centers[c], clusters.centers[c + 1]};
+        connection.length = glm::distance(connection.path[0], connection.path[1]);
+        network.spanning.push_back(c);
+        network.connections.push_back(connection);
+        links.emplace_back(c, c + 1);
+    }
+    SeedSpread spread;
+    std::vector<SettledSeed> settled;
+    for (const Vec3& centre : clusters.centers) {
+        const auto nearest = std::ranges::min_element(
+            shape.surface.positions, {}, [&](const Vec3& p) { return glm::distance(p, centre); });
+        spread.vertices.push_back(
+            static_cast<std::uint32_t>(nearest - shape.surface.positions.begin()));
+        settled.emplace_back().position = centre;
+    }
+    spread.vertices.back() = static_cast<std::uint32_t>(
+        std::ranges::max_element(shape.surface.positions, {}, [](const Vec3& p) { return p.z; }) -
+        shape.surface.positions.begin());
+    std::vector<Vec3> inner;
+    for (const Vec3& p : shape.surface.positions) {
+        const auto nearest = std::ranges::min_element(
+            clusters.centers, {}, [&](const Vec3& c) { return glm::distance(p, c); });
+        spread.seed_of.push_back(static_cast<std::uint32_t>(nearest - clusters.centers.begin()));
+        inner.push_back(glm::mix(p, *nearest, 0.01f));
+    }
+    const ClusterContext context{shape.surface, shape.query, spread,   settled, inner,
+                                 links,         {},          clusters, girths,  true};
+    const Limbs limbs = grow_limbs(context, network, {});
+    std::set<std::pair<std::uint32_t, std::uint32_t>> joined;
+    for (const Connection& c : limbs.connections) joined.emplace(c.a, c.b);
+    CHECK(joined ==
+          std::set<std::pair<std::uint32_t, std::uint32_t>>{{0, 1}, {1, 2}, {2, 4}, {4, 5}});
+    CHECK(limbs.home[3] != 3);
 }

@@ -67,8 +67,7 @@ std::vector<std::vector<std::uint32_t>> CurveGraph::branches() const {
     return trace_branches(nodes.size(), links_in(*this));
 }
 
-CurveGraph build_graph(const ClusterContext& context, std::span<const Connection> connections,
-                       const Limbs& limbs) {
+CurveGraph build_graph(const ClusterContext& context, const Limbs& limbs) {
     CurveGraph graph;
     std::vector<std::uint32_t> number(limbs.home.size(), kNone);
     for (std::uint32_t c = 0; c < limbs.home.size(); ++c) {
@@ -78,8 +77,7 @@ CurveGraph build_graph(const ClusterContext& context, std::span<const Connection
     for (std::uint32_t s = 0; s < context.clusters.of_point.size(); ++s) {
         graph.nodes[number[limbs.home[context.clusters.of_point[s]]]].seeds.push_back(s);
     }
-    for (const std::uint32_t i : limbs.connections) {
-        const Connection& c = connections[i];
+    for (const Connection& c : limbs.connections) {
         const std::span<const Vec3> within = std::span(c.path).subspan(1, c.path.size() - 2);
         graph.link(add_chain(graph, number[c.a], within), number[c.b]);
     }

@@ -35,7 +35,6 @@ struct CurveGraph {
 };
 
 /// Nodes at the kept clusters' centres and along their connections' paths.
-CurveGraph build_graph(const ClusterContext& context, std::span<const Connection> connections,
-                       const Limbs& limbs);
+CurveGraph build_graph(const ClusterContext& context, const Limbs& limbs);
 
 }  // namespace zskel

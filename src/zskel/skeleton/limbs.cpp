@@ -27,6 +27,7 @@ constexpr int kTipPieces = 8;           // that each straight of a tip is looked
 constexpr int kLimbPieces = 64;  // that a limb is looked at in, for where it leaves the body,
 constexpr std::size_t kOutsidePlaces = 8;  // and places outside, for how thick it is
 constexpr float kUnfreeCost = 1e3f;        // of connections that could not be laid inside
+constexpr float kDetour = 3.0f;  // a way so many times as long as straight across a ball is one
 // Of the thickest cluster: those that count as thick as it where limbs begin to grow, and where
 // none has grown.
 constexpr float kAsThick = 0.98f;
@@ -146,7 +147,7 @@ class LimbGrower {
             if (is_core[c]) core.push_back(c);
         }
         keep(core);
-        for (const std::uint32_t i : network.core) keep_connection(i);
+        for (const std::uint32_t i : network.core) keep_connection(connections_[i]);
     }
 
     // A plate's one node stands in its middle.
@@ -158,9 +159,8 @@ class LimbGrower {
         std::ranges::fill(out_.home, thickest_in(all, kAsThickAlone, girths_, centers_));
     }
 
-    void keep_connection(std::uint32_t i) {
-        const Connection& c = connections_[i];
-        out_.connections.push_back(i);
+    void keep_connection(const Connection& c) {
+        out_.connections.push_back(c);
         coverage_.add(c.path, girths_[c.a], girths_[c.b]);
     }
 
@@ -233,10 +233,11 @@ class LimbGrower {
 
     void keep_limb(Limb limb) {
         ++out_.limbs;
+        limb.way = without_detours(limb.way);
         for (std::size_t i = limb.way.size() - 1; i-- > 0;) {
-            Way& way = ways_[limb.way[i]];
-            way.trunk = ways_[way.next].trunk + cost_of(connections_[way.connection]);
-            keep_connection(way.connection);
+            const Connection c = connection_to(limb.way[i + 1], limb.way[i]);
+            ways_[limb.way[i]].trunk = ways_[limb.way[i + 1]].trunk + cost_of(c);
+            keep_connection(c);
         }
         const std::vector<float> tip_girths = girths_at(context_.query, limb.tip);
         for (std::size_t i = 1; i < limb.tip.size(); ++i)
@@ -259,6 +260,41 @@ class LimbGrower {
         while (ways_[way.back()].next != way.back() && ways_[way.back()].next != kNone)
             way.push_back(ways_[way.back()].next);
         return way;
+    }
+
+    // Connections follow the surface: where a wall is thin they may lead down one side and up the
+    // other, past a cluster that is near.
+    std::vector<std::uint32_t> without_detours(const std::vector<std::uint32_t>& way) const {
+        std::vector<std::uint32_t> out{way.front()};
+        for (std::size_t i = 0; i + 1 < way.size();) {
+            std::size_t next = i + 1;
+            float length = 0.0f;
+            for (std::size_t k = i + 1; k < way.size(); ++k) {
+                length += connections_[ways_[way[k - 1]].connection].length;
+                if (k > next && is_detour(way[i], way[k], length)) next = k;
+            }
+            out.push_back(way[next]);
+            i = next;
+        }
+        return out;
+    }
+
+    // The one by which a cluster's way goes on; straight across where it does not go on there.
+    Connection connection_to(std::uint32_t next, std::uint32_t cluster) const {
+        const Way& way = ways_[cluster];
+        if (way.next == next) return connections_[way.connection];
+        Connection across;
+        across.a = std::min(next, cluster);
+        across.b = std::max(next, cluster);
+        across.path = {centers_[across.a], centers_[across.b]};
+        across.length = length_of(across.path);
+        return across;
+    }
+
+    bool is_detour(std::uint32_t from, std::uint32_t to, float length) const {
+        const float across = glm::distance(centers_[from], centers_[to]);
+        return across < std::max(girths_[from], girths_[to]) && length > kDetour * across &&
+               is_free(std::array{centers_[from], centers_[to]}, context_.query);
     }
 
     // From a cluster outwards along the way that a seed came, to the centre of the last ball that
@@ -429,9 +465,7 @@ class LimbGrower {
     // bodies are left alone: no curve lies near to all of their surface.
     bool is_fat_end(const Limb& limb, const FarPatch& patch, const FarPatches& far) const {
         const std::uint32_t root = limb.way.back();
-        const auto is_at_root = [&](std::uint32_t i) {
-            return connections_[i].a == root || connections_[i].b == root;
-        };
+        const auto is_at_root = [&](const Connection& c) { return c.a == root || c.b == root; };
         const auto degree =
             std::count_if(out_.connections.begin(), out_.connections.end(), is_at_root);
         const auto girth = static_cast<double>(girths_[root]);

@@ -36,7 +36,7 @@ struct Limbs {
         std::uint32_t cluster = 0;
         std::vector<Vec3> path;  ///< from the cluster's centre outwards
     };
-    std::vector<std::uint32_t> connections;  ///< kept
+    std::vector<Connection> connections;  ///< kept, and straight ones in place of detours
     std::vector<Tip> tips;
     std::vector<std::uint32_t> home;  ///< of every cluster: itself if kept, else the kept cluster
                                       ///< that the best way from it leads to
@@ -46,9 +46,10 @@ struct Limbs {
 
 /// Starts from the cycles of the network (where there is none, from its thickest cluster), and adds
 /// limbs as long as the surface at some seed sticks out of the balls along what is kept: the way
-/// from the rest place of the seed that sticks out farthest, along the thick middle, and on to
-/// where the seed came from if its place is still far. Then fat ends: a part that hardly sticks out
-/// of the ball of its body, as a vase's foot, but lies far from it in its own thickness.
+/// from the rest place of the seed that sticks out farthest, along the thick middle, straight
+/// where connections lead out and back past a cluster, and on to where the seed came from if its
+/// place is still far. Then fat ends: a part that hardly sticks out of the ball of its body, as a
+/// vase's foot, but lies far from it in its own thickness.
 /// @see Sato et al. 2000 (TEASAR) for paths from the farthest place not covered; the measures of
 ///      what is covered and what is a limb are ours.
 Limbs grow_limbs(const ClusterContext& context, const ClusterNetwork& network,

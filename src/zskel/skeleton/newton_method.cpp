@@ -171,14 +171,12 @@ SolidSkeleton extract_by_newton(
         if (!network.is_core_laid)
             out.warnings.emplace_back("not all cycles could be laid along the middle of the solid");
         const Limbs limbs = grow_limbs(context, network, options.limbs);
-        const auto unfree =
-            std::count_if(limbs.connections.begin(), limbs.connections.end(),
-                          [&](std::uint32_t i) { return !network.connections[i].is_inside; });
+        const auto unfree = std::ranges::count(limbs.connections, false, &Connection::is_inside);
         if (unfree > 0)
             out.warnings.push_back(fmt::format("{} connections could not be laid inside", unfree));
         out.limbs = limbs.limbs;
         out.rejected_limbs = limbs.rejected;
-        graph = build_graph(context, network.connections, limbs);
+        graph = build_graph(context, limbs);
         break;
     }
     progress.begin("refine");
