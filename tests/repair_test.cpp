@@ -1,5 +1,6 @@
 // What is mended of meshes that bound no solid as they are.
 #include <doctest/doctest.h>
+#include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
@@ -8,6 +9,7 @@
 
 #include "support/box.h"
 #include "support/extract.h"
+#include "support/parse.h"
 #include "support/shapes.h"
 #include "support/voxels.h"
 #include "zskel/core/error.h"
@@ -358,4 +360,19 @@ TEST_CASE("join_parts: a part thinner than a voxel is lost, and said to be") {
     CHECK(count_of(joined.repairs, "vertices lost") == 4);
     const JoinedMesh finer = join_parts(test::sphere(0.5, 2), {}, {});
     CHECK(count_of(finer.repairs, "vertices lost") == 0);
+}
+
+TEST_CASE("repair: quads given from both sides are duplicates, wherever they begin") {
+    std::string obj = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nv 0 0 3\nv 1 0 3\nv 1 1 3\nv 0 1 3\n";
+    const int sides[6][4] = {{4, 3, 2, 1}, {5, 6, 7, 8}, {1, 2, 6, 5},
+                             {2, 3, 7, 6}, {3, 4, 8, 7}, {4, 1, 5, 8}};
+    for (const auto& s : sides) {
+        obj += fmt::format("f {} {} {} {}\n", s[0], s[1], s[2], s[3]);
+        obj += fmt::format("f {} {} {} {}\n", s[3], s[2], s[1], s[0]);
+    }
+    const PreparedSurface prepared = prepare_surface(test::parse(obj, MeshFormat::Obj));
+    CHECK(prepared.surface.triangles.size() == 12);
+    const std::vector<Solid> solids = split_solids(prepared);
+    REQUIRE(solids.size() == 1);
+    CHECK(solids[0].is_closed);
 }

@@ -7,6 +7,7 @@
 #include <numbers>
 #include <numeric>
 #include <random>
+#include <set>
 
 namespace zskel {
 namespace {
@@ -117,6 +118,30 @@ TEST_CASE("triangulate: turning and moving a polygon does not change how it is c
     for (const DVec3& p : flat) placed.push_back(p.x * u + p.y * v + DVec3(10, 20, 30));
     check_proper(placed);
     CHECK(cut(placed).triangles == cut(flat).triangles);
+}
+
+TEST_CASE("triangulate: from any corner and either side a polygon is cut along the same lines") {
+    const Points square = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}};
+    for (const Points& points : {square, star(12, 0.4), star(40, 0.9)}) {
+        std::set<std::set<std::uint32_t>> expected;
+        for (int turn = 0; turn < static_cast<int>(2 * points.size()); ++turn) {
+            std::vector<std::uint32_t> polygon = in_order(points.size());
+            std::rotate(polygon.begin(), polygon.begin() + turn / 2, polygon.end());
+            if (turn % 2 == 1) std::reverse(polygon.begin(), polygon.end());
+            std::vector<Triangle> triangles;
+            std::size_t looks_left = 1'000'000;
+            REQUIRE(triangulate(points, polygon, triangles, looks_left));
+            std::set<std::set<std::uint32_t>> corners;
+            DVec3 area(0.0);
+            for (const Triangle& t : triangles) {
+                corners.insert({t.x, t.y, t.z});
+                area += area_vector(points, t);
+            }
+            CHECK((area.z > 0.0) == (turn % 2 == 0));
+            if (turn == 0) expected = corners;
+            CHECK(corners == expected);
+        }
+    }
 }
 
 TEST_CASE("triangulate: corners on straight lines still give triangles with area") {

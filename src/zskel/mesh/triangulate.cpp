@@ -17,6 +17,8 @@ namespace {
 
 /// Sine of the angle up to which two edges count as one straight line: rounding, with room.
 constexpr double kStraightSine = 1e-12;
+/// Up to which difference a quad's two cuts count as equally good.
+constexpr double kEvenCuts = 1e-9;
 
 DVec3 newell_normal(std::span<const DVec3> positions, std::span<const std::uint32_t> polygon) {
     const DVec3 origin = positions[polygon[0]];
@@ -196,7 +198,13 @@ bool clip_ears(Outline outline, std::size_t corners, std::vector<Triangle>& tria
     return proper;
 }
 
-/// The better of a quad's two cuts: the one whose smaller triangle is larger.
+/// Where the lowest vertex number is, whichever the outline begins with.
+std::size_t lowest_corner(std::span<const std::uint32_t> polygon) {
+    return static_cast<std::size_t>(std::ranges::min_element(polygon) - polygon.begin());
+}
+
+/// The better of a quad's two cuts: the one whose smaller triangle is larger; of two as good, the
+/// one through the lowest vertex number.
 bool split_quad(std::span<const DVec3> positions, std::span<const std::uint32_t> quad,
                 const DVec3& normal, std::vector<Triangle>& triangles) {
     const auto area = [&](int a, int b, int c) {
@@ -206,7 +214,9 @@ bool split_quad(std::span<const DVec3> positions, std::span<const std::uint32_t>
     };
     const double along_02 = std::min(area(0, 1, 2), area(0, 2, 3));
     const double along_13 = std::min(area(0, 1, 3), area(1, 2, 3));
-    if (along_02 >= along_13) {
+    const double rounding = kEvenCuts * std::max(std::abs(along_02), std::abs(along_13));
+    const bool is_even = std::abs(along_02 - along_13) <= rounding;
+    if (is_even ? lowest_corner(quad) % 2 == 0 : along_02 > along_13) {
         triangles.emplace_back(quad[0], quad[1], quad[2]);
         triangles.emplace_back(quad[0], quad[2], quad[3]);
     } else {
@@ -240,8 +250,20 @@ bool triangulate(std::span<const DVec3> positions, std::span<const std::uint32_t
     }
     normal /= size;
     if (polygon.size() == 4) return split_quad(positions, polygon, normal, triangles);
-    return clip_ears(Outline(flatten(positions, polygon, normal), polygon, looks_left),
-                     polygon.size(), triangles);
+    // From the lowest vertex number on, towards the lower one beside it.
+    const std::size_t count = polygon.size();
+    const std::size_t first = lowest_corner(polygon);
+    const bool is_backward = polygon[(first + count - 1) % count] < polygon[(first + 1) % count];
+    std::vector<std::uint32_t> corners;
+    for (std::size_t i = 0; i < count; ++i)
+        corners.push_back(polygon[(first + (is_backward ? count - i : i)) % count]);
+    if (is_backward) normal = -normal;
+    const std::size_t before = triangles.size();
+    const bool is_proper = clip_ears(
+        Outline(flatten(positions, corners, normal), corners, looks_left), count, triangles);
+    for (std::size_t t = before; is_backward && t < triangles.size(); ++t)
+        std::swap(triangles[t].y, triangles[t].z);
+    return is_proper;
 }
 
 }  // namespace zskel

@@ -9,7 +9,8 @@
 namespace zskel {
 
 /// Splits a polygon into corners - 2 triangles of the same winding, appended to `triangles`.
-/// Concave polygons are cut inside their outline; the plane is the one of Newell's normal.
+/// Concave polygons are cut inside their outline; the plane is the one of Newell's normal. The same
+/// polygon is cut the same way from whichever corner and side it is given.
 /// @param positions  of all vertices; the polygon's own are looked up.
 /// @param polygon    at least three vertex numbers, in order; may repeat and lie on a line.
 /// @param looks_left  how often a corner may still be looked at; counts down. A polygon of n
