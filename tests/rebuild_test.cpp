@@ -218,6 +218,16 @@ TEST_CASE(
     CHECK(share_seen(ring, maps, 0.003 * diagonal) > 0.995);
 }
 
+TEST_CASE("surfels: none lies off the surface where one limb is seen past another") {
+    const Mesh ring = test::torus();
+    const VisibilityMaps maps = maps_by_cpu(ring, test::extract(ring).graph);
+    std::vector<DVec3> places;
+    for (const Surfel& s : Recall(maps).surfels()) places.push_back(s.position);
+    REQUIRE(places.size() > 10000);
+    const std::vector<double> off = distances_to(ring, places);
+    CHECK(*std::ranges::max_element(off) < 0.005 * box_of(ring.positions).diagonal());
+}
+
 TEST_CASE("rebuild_surface: the void in a ball stays, other parts stay apart") {
     const Mesh hollow =
         test::together(test::sphere(0.5), test::turned_inside_out(test::sphere(0.2)));

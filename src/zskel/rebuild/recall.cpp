@@ -242,6 +242,7 @@ Sighting RecallMap::look_at(const DVec3& place) const {
     const float least = std::min({q00, q10, q01, q11});
     // a X + b Y + c Z = 1 in the face's axes.
     DVec3 plane(0.0, 0.0, most);
+    bool is_jump = false;
     const Vec3* beside = beside_crease(quad(face, i, j), direction, least * depth);
     if (beside != nullptr) {
         plane = in_face(DVec3(*beside), face);
@@ -253,11 +254,13 @@ Sighting RecallMap::look_at(const DVec3& place) const {
         const double q =
             (q00 * (1.0 - fx) + q10 * fx) * (1.0 - fy) + (q01 * (1.0 - fx) + q11 * fx) * fy;
         plane = DVec3(a, b, q - (a * local.x + b * local.y) / depth);
+    } else {
+        is_jump = true;
     }
     const double steepness = glm::length(plane);
     if (!(steepness > 0.0)) return {-glm::length(direction), 0.0, DVec3(0.0)};
     return {(1.0 - glm::dot(plane, local)) / steepness, texel_width * depth,
-            from_face(plane / steepness, face)};
+            from_face(plane / steepness, face), is_jump};
 }
 
 Recall::Recall(const VisibilityMaps& maps) : face_px_(maps.face_px) {
@@ -322,7 +325,7 @@ std::vector<Surfel> Recall::surfels() const {
                 const DVec3 probe = maps_[m].eye() + ray * maps_[m].farthest();
                 const Sighting seen = maps_[m].look_at(probe);
                 const double facing = glm::dot(seen.outward, ray);
-                if (!(facing > 0.0)) continue;
+                if (seen.is_jump || !(facing > 0.0)) continue;
                 const double way = maps_[m].farthest() + seen.inside / facing;
                 found[m].push_back({maps_[m].eye() + ray * way, seen.outward,
                                     2.0 / face_px_ * way * glm::length(ray) / facing});

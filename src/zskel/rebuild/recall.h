@@ -16,6 +16,7 @@ struct Sighting {
     double inside = 0.0;     ///< how far the place lies before that plane; below 0 behind it
     double footprint = 0.0;  ///< width of a texel there: how much that can be wrong by
     DVec3 outward{0.0};      ///< the plane's normal, unit
+    bool is_jump = false;    ///< depths jump there: a wall across the way at the nearest of them
 };
 
 /// One node's map, made ready for questions. On a face of a cube map the inverse of the axial depth
@@ -84,7 +85,7 @@ class Recall {
     /// The maps that tell of a cube about `middle`: the nearest of those that see something of it.
     std::vector<std::uint32_t> maps_about(const DVec3& middle, double half_side) const;
 
-    /// Every texel's point, in the order of the nodes.
+    /// Every texel's point, in the order of the nodes; none where depths jump beside it.
     std::vector<Surfel> surfels() const;
 
   private:
