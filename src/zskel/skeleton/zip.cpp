@@ -1,6 +1,8 @@
 #include "zskel/skeleton/zip.h"
 
 #include <algorithm>
+#include <functional>
+#include <utility>
 
 #include "zskel/skeleton/path.h"
 
@@ -16,7 +18,7 @@ using Strand = std::vector<std::uint32_t>;
 class Zipper {
   public:
     Zipper(CurveGraph& graph, const SurfaceQuery& query, const RefineOptions& options)
-        : graph_(graph), query_(query), options_(options) {}
+        : graph_(graph), query_(query), options_(options), radii_(graph.nodes.size(), -1.0f) {}
 
     // Where two parted farther on, a third may have come along: over all junctions until none is
     // left. Every zip removes a node, so this ends.
@@ -36,17 +38,20 @@ class Zipper {
 
   private:
     bool zip_at(std::uint32_t junction) {
-        std::vector<Strand> strands;
-        for (const std::uint32_t next : graph_.nodes[junction].links)
-            strands.push_back(graph_.branch_from(junction, next));
-        std::stable_sort(strands.begin(), strands.end(), [&](const Strand& a, const Strand& b) {
-            return graph_.length_along(a) > graph_.length_along(b);
-        });
+        std::vector<std::pair<float, Strand>> strands;  // with their lengths
+        for (const std::uint32_t next : graph_.nodes[junction].links) {
+            Strand strand = graph_.branch_from(junction, next);
+            const float length = graph_.length_along(strand);
+            strands.emplace_back(length, std::move(strand));
+        }
+        std::ranges::stable_sort(strands, std::greater(), &std::pair<float, Strand>::first);
         for (std::size_t a = 0; a < strands.size(); ++a) {
+            const Strand& longer = strands[a].second;
+            const bool is_ring = longer.back() == junction;
             for (std::size_t b = a + 1; b < strands.size(); ++b) {
-                const bool is_ring = strands[a].back() == junction;
-                if (!is_ring && zip(strands[a], strands[b])) return true;
-                if (zip_past(strands[b], strands[a])) return true;
+                const Strand& shorter = strands[b].second;
+                if (!is_ring && zip(longer, shorter)) return true;
+                if (zip_past(shorter, longer)) return true;
             }
         }
         return false;
@@ -58,8 +63,7 @@ class Zipper {
         if (places.last == 0 || places.beside == 0) return false;
         const Vec3& start = graph_.at(stays.front());
         const std::uint32_t joint = stays[places.beside];
-        const float least =
-            static_cast<float>(options_.zip_least_radii) * query_.nearest(start).distance;
+        const float least = static_cast<float>(options_.zip_least_radii) * radius_at(stays.front());
         if (glm::distance(start, graph_.at(joint)) < least) return false;
         return join(goes, places.last, joint);
     }
@@ -80,7 +84,7 @@ class Zipper {
                 glm::distance(graph_.at(goes[last]), there))
                 last = k;
         }
-        const float near = static_cast<float>(options_.zip_radii) * query_.nearest(there).distance;
+        const float near = static_cast<float>(options_.zip_radii) * radius_at(junction);
         return glm::distance(graph_.at(goes[last]), there) <= near && join(goes, last, junction);
     }
 
@@ -90,8 +94,7 @@ class Zipper {
         // An end that lies beside another branch stays as it is.
         const bool has_end = graph_.nodes[goes.back()].links.size() == 1;
         const Strand left(goes.begin() + static_cast<std::ptrdiff_t>(last), goes.end());
-        const float radius = query_.nearest(graph_.at(joint)).distance;
-        if (has_end && graph_.length_along(left) < kLeastLeft * radius) return false;
+        if (has_end && graph_.length_along(left) < kLeastLeft * radius_at(joint)) return false;
         const auto& kept = graph_.nodes[joint].links;
         const bool is_double =
             next == joint || std::find(kept.begin(), kept.end(), next) != kept.end();
@@ -102,6 +105,13 @@ class Zipper {
         return true;
     }
 
+    // Inscribed; nothing moves here.
+    float radius_at(std::uint32_t node) {
+        float& radius = radii_[node];
+        if (radius < 0.0f) radius = query_.nearest(graph_.at(node)).distance;
+        return radius;
+    }
+
     struct Places {
         std::size_t last = 0;    // of `goes`, still beside
         std::size_t beside = 0;  // of `stays`, nearest to it
@@ -109,7 +119,7 @@ class Zipper {
     };
 
     // How far two strands go side by side, in radii; neither to its last node.
-    Places side_by_side(const Strand& stays, const Strand& goes, float radii) const {
+    Places side_by_side(const Strand& stays, const Strand& goes, float radii) {
         Places out;
         std::size_t i = 0;
         for (std::size_t k = 1; k + 1 < goes.size(); ++k) {
@@ -117,8 +127,7 @@ class Zipper {
             while (i + 2 < stays.size() && glm::distance(p, graph_.at(stays[i + 1])) <=
                                                glm::distance(p, graph_.at(stays[i])))
                 ++i;
-            const float aside = distance_to(points_round(stays, i), p);
-            if (aside > radii * query_.nearest(p).distance) break;
+            if (distance_near(stays, i, p) > radii * radius_at(goes[k])) break;
             out.last = k;
             out.beside = i;
             if (out.at_end == 0 && i + 2 >= stays.size()) out.at_end = k;
@@ -126,17 +135,20 @@ class Zipper {
         return out;
     }
 
-    // A node's place between those before and after it.
-    std::vector<Vec3> points_round(const Strand& strand, std::size_t i) const {
-        std::vector<Vec3> points;
-        for (std::size_t k = i > 0 ? i - 1 : 0; k <= i + 1; ++k)
-            points.push_back(graph_.at(strand[k]));
-        return points;
+    // To the segments before and after a node.
+    float distance_near(const Strand& strand, std::size_t i, const Vec3& p) const {
+        float least = kInfinity;
+        for (std::size_t k = i > 0 ? i - 1 : 0; k <= i; ++k) {
+            const Vec3 foot = nearest_on_segment(graph_.at(strand[k]), graph_.at(strand[k + 1]), p);
+            least = std::min(least, glm::distance(foot, p));
+        }
+        return least;
     }
 
     CurveGraph& graph_;
     const SurfaceQuery& query_;
     const RefineOptions& options_;
+    std::vector<float> radii_;  // below 0: not looked at yet
 };
 
 }  // namespace
