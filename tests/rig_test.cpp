@@ -317,6 +317,30 @@ TEST_CASE("skin_weights: no vertex of the horse follows two limbs") {
     CHECK(*std::min_element(followers.begin(), followers.end()) > 0);
 }
 
+TEST_CASE("skin_weights: the same bits whichever thread comes first") {
+    const Mesh octopus = read_mesh(ZSKEL_MODELS "/octopus.obj");
+    const ExtractResult result = test::extract(octopus);
+    const Armature armature = build_armature(result.graph, octopus.triangles, {});
+    const auto bits = [&] {
+        std::vector<std::pair<std::uint32_t, float>> out;
+        for (const std::vector<Influence>& of_vertex :
+             skin_weights(octopus, result.graph, armature, {})) {
+            for (const Influence& i : of_vertex) out.emplace_back(i.bone, i.weight);
+        }
+        return out;
+    };
+    const auto first = bits();
+    for (int k = 0; k < 8; ++k) CHECK(bits() == first);
+}
+
+TEST_CASE("build_armature: limbs that hardly leave what they hang on are counted") {
+    SkeletonGraph graph = line_graph(-0.5, 0.5, 0.05, 0.1);
+    graph.nodes.push_back({{0.0, 0.12, 0.0}, 0.02});
+    graph.edges.push_back({10, static_cast<std::uint32_t>(graph.nodes.size() - 1)});
+    CHECK(build_armature(graph, {}, {}).stubs == 1);
+    CHECK(build_armature(line_graph(-0.5, 0.5, 0.05, 0.1), {}, {}).stubs == 0);
+}
+
 TEST_CASE("write_rig_glb: mesh, joints and weights of a tube") {
     const Mesh tube = test::cylinder(0.1, 1.0, 12, 9);
     SkeletonGraph axis = graph_of({{0, 0, -0.4}, {0, 0, 0}, {0, 0, 0.4}}, {{0, 1}, {1, 2}}, 0.1);

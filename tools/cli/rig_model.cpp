@@ -17,6 +17,10 @@ void say_what_was_left_out(const Armature& armature) {
         log_warning("{} branches have no bone of their own, to keep within --max-bones",
                     armature.dropped_branches);
     }
+    if (armature.stubs > 0) {
+        log_warning("{} limbs hardly leave what they hang on, and have no bone of their own",
+                    armature.stubs);
+    }
 }
 
 }  // namespace
@@ -33,12 +37,12 @@ void add_rig_options(CLI::App& command, RigOptions& options) {
                     "How far a limb must stick out to have bones: below 1 more of them, above 1 "
                     "fewer")
         ->capture_default_str()
-        ->check(CLI::Range(0.01, 100.0));
+        ->check(number_in(0.01, 100.0));
     command
         .add_option("--smoothing", options.weights.smoothing_radii,
                     "How far a bone's hold fades out over the surface, in radii of the limb")
         ->capture_default_str()
-        ->check(CLI::Range(0.01, 10.0));
+        ->check(number_in(0.01, 10.0));
     add_backend_options(command, options.backend);
 }
 

@@ -198,6 +198,9 @@ class ArmatureBuilder {
             shortest->is_dropped = true;
             ++out_.dropped_branches;
         }
+        out_.stubs = static_cast<std::size_t>(std::ranges::count_if(chains_, [&](const Chain& c) {
+            return !c.is_dropped && c.joints.empty() && links_[c.nodes.back()].size() == 1;
+        }));
     }
 
     static bool has_bones(const Chain& chain) { return !chain.is_dropped && !chain.joints.empty(); }

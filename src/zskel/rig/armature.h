@@ -35,6 +35,8 @@ struct Armature {
     /// Of every node of the skeleton: the bone that it lies on; at a joint all that meet there.
     std::vector<std::vector<std::uint32_t>> node_bones;
     std::size_t dropped_branches = 0;  ///< that got no bone of their own, to keep within the bound
+    std::size_t stubs = 0;  ///< branches with an end that hardly leave what they hang on, and got
+                            ///< none for that
 };
 
 struct ArmatureOptions {

@@ -227,6 +227,8 @@ std::vector<std::vector<Influence>> skin_weights(const Mesh& mesh, const Skeleto
     });
     for (std::size_t v = 0; v < places.size(); ++v) {
         if (places[v].empty()) places[v] = {{first[v], 1.0f}};
+        // Sums must not hang on which thread came first.
+        std::ranges::sort(places[v], {}, &Influence::bone);
         Rivals(armature, places[v]).part();
         keep_strongest(places[v], options);
     }
