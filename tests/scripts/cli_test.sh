@@ -67,6 +67,16 @@ case_usage() {
     for value in 0 -1 nan inf x ''; do refused 2 '--step' extract cube.obj --step="$value"; done
     for value in -1 nan inf x ''; do refused 2 '--min-handle' extract cube.obj --min-handle="$value"; done
     for value in -1 nan inf x ''; do refused 2 '--resample' extract cube.obj --resample="$value"; done
+    for value in nan x ''; do refused 2 '--detail' extract cube.obj --detail="$value"; done
+    for value in nan inf; do refused 2 '--timeout' --timeout "$value" check cube.obj; done
+    refused 2 '--view requires --picture' extract cube.obj --view front
+    refused 2 '--picture-width requires --picture' rig cube.obj -o a.glb --picture-width 100
+    refused 2 '--map-px requires --keep-maps' extract cube.obj --map-px 8
+    refused 2 'excludes' extract cube.obj --backend ray --rays 100 --face-px 8
+    refused 2 '--exact goes with' extract cube.obj --backend ray --exact
+    refused 2 'excludes' -q -v check cube.obj
+    refused 2 'excludes' repair cube.obj --caps --no-caps -o a.obj
+    refused 2 '--query' match --index . cube.obj
     refused 2 '--active-contour goes with --method newton' extract cube.obj --method paper --active-contour
     refused 2 '--min-handle goes with --method newton' extract cube.obj --method paper --min-handle 1
     refused 2 '--cluster' extract cube.obj --cluster -1
@@ -101,6 +111,7 @@ case_rig() {
     refused 2 'cube.obj' rig cube.obj -o ./cube.obj
     refused 2 '--max-bones' rig cube.obj -o b.glb --max-bones -1
     refused 2 '--smoothing' rig cube.obj -o b.glb --smoothing 0
+    refused 2 '--smoothing' rig cube.obj -o b.glb --smoothing nan
     refused 3 'none.obj' rig none.obj -o b.glb
     refused 5 'nowhere' rig cube.obj -o nowhere/b.glb
     awk -f "$here/two_parts.awk" cube.obj >two.obj
@@ -203,6 +214,9 @@ case_match() {
     run 0 convert all/y.json -o all/same.graphml
     run 0 match all/y.json all/same.graphml
     [[ $(cat out) == 0 ]] || fail "a shape is not like itself: $(cat out)"
+    run 0 convert all/y.json -o y.swc
+    run 0 match all/y.json y.swc
+    grep -q 'keeps no volumes' err || fail "not a word that SWC keeps no volumes"
     run 0 match y.obj "${quick[@]}" all/torus.json --json
     is_json out || fail "no JSON"
     /usr/bin/python3 -c 'import json; d = json.load(open("out")); assert d["distance"] > 0.1 and len(d["nodes"]) == 48' ||
@@ -307,6 +321,7 @@ case_repair() {
     run 0 check --json open.ply
     holds '"is_closed": ?false'
     run 0 repair open.obj --caps -o closed.obj
+    holds 'openings closed with caps: 1'
     run 0 check --json closed.obj
     holds '"is_closed": ?true'
     refused 3 'needs repairs, and none are allowed: openings closed' extract open.obj --no-repair -o a.json

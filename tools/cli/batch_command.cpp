@@ -191,8 +191,7 @@ void add_worker_options(CLI::App& command, Arguments& arguments) {
         .add_option("--item-timeout", arguments.item_timeout_s,
                     "Give an item up after so many seconds; 0: never")
         ->capture_default_str()
-        ->check(length_or_zero())
-        ->check(CLI::Range(0.0, 1e8))
+        ->check(number_in(0.0, 1e8))
         ->group(kGroup);
     command
         .add_option("--item-memory", arguments.item_memory_mb,
@@ -200,8 +199,7 @@ void add_worker_options(CLI::App& command, Arguments& arguments) {
                     "about 300 go to any model; 0: no bound [each worker's share of nine tenths of "
                     "what is free]")
         ->type_name("MB")
-        ->check(length_or_zero())
-        ->check(CLI::Range(0.0, 1e9))
+        ->check(number_in(0.0, 1e9))
         ->group(kGroup);
 }
 

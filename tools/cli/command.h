@@ -50,14 +50,18 @@ bool is_skeleton_json(const std::string& path);
 void add_backend_options(CLI::App& command, BackendOptions& options);
 
 /// Adds --view to a subcommand.
-void add_view_option(CLI::App& command, PictureOptions& options);
+CLI::Option* add_view_option(CLI::App& command, PictureOptions& options);
 
 /// Adds --view, --picture-width and --picture-height to a subcommand.
-void add_picture_options(CLI::App& command, PictureOptions& options);
+/// @param pictures  the options that draw one: without any of them the others are refused.
+void add_picture_options(CLI::App& command, PictureOptions& options,
+                         const std::vector<CLI::Option*>& pictures);
 
 /// Checks for lengths: finite, and above 0 or not below it.
 CLI::Validator positive_length();
 CLI::Validator length_or_zero();
+/// Unlike CLI::Range refuses what is no number.
+CLI::Validator number_in(double low, double high);
 
 /// Refuses outputs that cannot be meant, before any work is done. Empty names are left out.
 /// @throws UsageError when an output is the model or another output; IoError when it is a folder,

@@ -63,6 +63,17 @@ CLI::Validator length_or_zero() {
                         [](double value) { return value >= 0.0; });
 }
 
+CLI::Validator number_in(double low, double high) {
+    return {[=](std::string& text) {
+                double value = 0.0;
+                const bool fine =
+                    CLI::detail::lexical_cast(text, value) && value >= low && value <= high;
+                return fine ? std::string()
+                            : fmt::format("{} is not a number from {} to {}", text, low, high);
+            },
+            fmt::format("FLOAT in [{} - {}]", low, high)};
+}
+
 void check_outputs(const std::string& model, const std::vector<std::string>& outputs) {
     std::vector<std::string> seen;
     if (std::ranges::count(outputs, "-") > 1) throw UsageError("two outputs go to standard output");
@@ -108,10 +119,11 @@ void add_backend_options(CLI::App& command, BackendOptions& options) {
         ->type_name("NAME");
     command.add_option("--gpu", options.gpu, "Take the hardware device of this number")
         ->check(CLI::Range(0, 1 << 16));
-    command
-        .add_option("--face-px", options.face_px,
-                    "Texels along a cube face, 4 to 1024 (default 16; 10 for --method newton)")
-        ->check(CLI::Range(kMinFacePx, kMaxFacePx));
+    CLI::Option* face_px =
+        command
+            .add_option("--face-px", options.face_px,
+                        "Texels along a cube face, 4 to 1024 (default 16; 10 for --method newton)")
+            ->check(CLI::Range(kMinFacePx, kMaxFacePx));
     command.add_flag("--exact", options.exact,
                      "The CPU's Z-buffer: no coarser levels of solids of 100,000 faces and more");
     command
@@ -119,11 +131,12 @@ void add_backend_options(CLI::App& command, BackendOptions& options) {
                     "Ray backends: this many directions an eye, spread evenly, in place of the "
                     "cube's texels "
                     "(the paper: 197)")
-        ->check(CLI::Range(1, 1 << 20));
+        ->check(CLI::Range(1, 1 << 20))
+        ->excludes(face_px);
 }
 
-void add_view_option(CLI::App& command, PictureOptions& options) {
-    command
+CLI::Option* add_view_option(CLI::App& command, PictureOptions& options) {
+    return command
         .add_option_function<std::string>(
             "--view", [&options](const std::string& text) { options.view = parse_view(text); },
             "Where pictures are taken from: front, back, left, right, top, bottom, iso, or "
@@ -131,12 +144,21 @@ void add_view_option(CLI::App& command, PictureOptions& options) {
         ->type_name("VIEW");
 }
 
-void add_picture_options(CLI::App& command, PictureOptions& options) {
-    add_view_option(command, options);
+void add_picture_options(CLI::App& command, PictureOptions& options,
+                         const std::vector<CLI::Option*>& pictures) {
+    std::vector<CLI::Option*> details{add_view_option(command, options)};
     for (const auto& [name, px] : {std::pair{"--picture-width", &options.width_px},
                                    std::pair{"--picture-height", &options.height_px}}) {
-        command.add_option(name, *px, "Pixels")->capture_default_str()->check(CLI::Range(16, 8192));
+        details.push_back(command.add_option(name, *px, "Pixels")
+                              ->capture_default_str()
+                              ->check(CLI::Range(16, 8192)));
     }
+    command.parse_complete_callback([details, pictures] {
+        const auto is_given = [](const CLI::Option* option) { return option->count() > 0; };
+        const auto detail = std::ranges::find_if(details, is_given);
+        if (detail != details.end() && std::ranges::none_of(pictures, is_given))
+            throw CLI::RequiresError((*detail)->get_name(), pictures.front()->get_name());
+    });
 }
 
 void print(const std::string& text) {

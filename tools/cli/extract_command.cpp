@@ -194,10 +194,11 @@ void add_extract_command(CLI::App& app, const Common& common, Run& run) {
                         "beside its polylines (.polylines.txt)");
     add_extraction_options(*command, arguments->how);
     add_dump_options(*command, *arguments);
-    command->add_option("--keep-maps", arguments->maps,
-                        "Write what every node sees into this file: zskel reconstruct rebuilds the "
-                        "surface of it");
-    add_map_px_option(*command, arguments->map_px);
+    CLI::Option* maps = command->add_option(
+        "--keep-maps", arguments->maps,
+        "Write what every node sees into this file: zskel reconstruct rebuilds the "
+        "surface of it");
+    add_map_px_option(*command, arguments->map_px)->needs(maps);
     command->add_flag("--with-seeds", arguments->parts.seeds,
                       "Add every seed's start, end, state and steps to the JSON");
     command->add_flag("--with-paths", arguments->parts.paths, "Add every seed's path too");
@@ -206,11 +207,12 @@ void add_extract_command(CLI::App& app, const Common& common, Run& run) {
     command->add_flag("--strict", arguments->strict,
                       "Exit with 6 when the skeleton fails its self-check (components, cycles, "
                       "inside); it is written all the same");
-    command->add_option("--picture", arguments->picture,
-                        "Draw the skeleton in the translucent model (PNG)");
-    command->add_option("--picture-paths", arguments->picture_paths,
-                        "Draw the seeds' paths and the nodes (PNG; the paper's Figure 3)");
-    add_picture_options(*command, arguments->picture_options);
+    CLI::Option* picture = command->add_option("--picture", arguments->picture,
+                                               "Draw the skeleton in the translucent model (PNG)");
+    CLI::Option* paths =
+        command->add_option("--picture-paths", arguments->picture_paths,
+                            "Draw the seeds' paths and the nodes (PNG; the paper's Figure 3)");
+    add_picture_options(*command, arguments->picture_options, {picture, paths});
     command->footer(
         "Examples:\n  zskel extract horse.obj -o horse.json --picture horse.png\n"
         "  zskel extract horse.obj --method paper --backend ray --rays 197 --stats -o horse.json\n"

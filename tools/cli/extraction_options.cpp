@@ -40,7 +40,7 @@ void add_method_options(CLI::App& command, ExtractionOptions& options) {
                 "--detail", newton.limbs.detail,
                 "How far a limb must stick out to be kept: below 1 more of them, above 1 fewer")
             ->capture_default_str()
-            ->check(CLI::Range(0.01, 100.0))
+            ->check(number_in(0.01, 100.0))
             ->group(kNewtonGroup),
         command
             .add_option(

@@ -108,11 +108,12 @@ int run_program(int argc, char** argv) {
     Common common;
     for (int i = 0; i < argc; ++i)
         common.command += (i == 0 ? "" : " ") + std::string(i == 0 ? "zskel" : argv[i]);
-    app.add_flag_function(
+    CLI::Option* quiet = app.add_flag_function(
         "-q,--quiet", [&](std::int64_t) { common.verbosity = -1; }, "Only errors");
     app.add_flag_function(
-        "-v,--verbose", [&](std::int64_t count) { common.verbosity = static_cast<int>(count); },
-        "Say what is done; twice: say more");
+           "-v,--verbose", [&](std::int64_t count) { common.verbosity = static_cast<int>(count); },
+           "Say what is done; twice: say more")
+        ->excludes(quiet);
     app.add_option("--log-format", common.log_format, "text, or json: one object a line")
         ->check(CLI::IsMember({"text", "json"}));
     app.add_option("--threads", common.threads, "Use at most this many threads")

@@ -52,6 +52,13 @@ Shape shape_of(const std::string& path, const Arguments& arguments) {
         const SkeletonFile file = read_skeleton(path);
         if (!file.has_radii)
             throw InputError(path + ": has no radii, which shapes are compared by");
+        if (path.ends_with(".swc")) {
+            log_warning(
+                "{}: this form keeps no volumes; tubes of its radii stand for them, which lie "
+                "apart "
+                "from the volumes of the same shape",
+                path);
+        }
         return {path, signature_of(file.graph)};
     }
     const Mesh mesh = read_mesh(path, arguments.reading);
@@ -189,8 +196,12 @@ void write_tables(const std::vector<Shape>& shapes, const Arguments& arguments) 
 
 ExitCode match(const Arguments& arguments) {
     const bool has_index = !arguments.index.empty();
-    if (has_index != arguments.inputs.empty())
+    if (!has_index && arguments.inputs.empty())
         throw UsageError("give two shapes or more, or --index");
+    if (has_index && !arguments.inputs.empty()) {
+        throw UsageError(
+            "--index takes no shapes beside it: what is looked for there goes with --query");
+    }
     if (!arguments.query.empty() && !has_index) throw UsageError("--query goes with --index");
     if (!has_index && arguments.inputs.size() < 2)
         throw UsageError("one shape alone has nothing to be compared with");

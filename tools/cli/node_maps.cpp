@@ -4,8 +4,9 @@
 
 namespace zskel::cli {
 
-void add_map_px_option(CLI::App& command, int& map_px) {
-    command.add_option("--map-px", map_px, "Texels along a face of the nodes' visibility maps")
+CLI::Option* add_map_px_option(CLI::App& command, int& map_px) {
+    return command
+        .add_option("--map-px", map_px, "Texels along a face of the nodes' visibility maps")
         ->capture_default_str()
         ->check(CLI::Range(kMinFacePx, kMaxFacePx));
 }

@@ -272,10 +272,11 @@ void add_reconstruct_command(CLI::App& app, const Common& common, Run& run) {
         ->check(length_or_zero());
     command->add_option("--original", arguments->original,
                         "With maps: the model to measure against");
-    command->add_option("--picture", arguments->picture,
-                        "Draw the model (PNG): orange where the rebuilt surface is 0.3 % of the "
-                        "diagonal off, blue where no node sees it");
-    add_picture_options(*command, arguments->picture_options);
+    CLI::Option* picture = command->add_option(
+        "--picture", arguments->picture,
+        "Draw the model (PNG): orange where the rebuilt surface is 0.3 % of the "
+        "diagonal off, blue where no node sees it");
+    add_picture_options(*command, arguments->picture_options, {picture});
     command->add_flag("--table", arguments->table,
                       "Measure with maps of 8 to 64 texels, of all nodes and of fewer");
     command->add_flag("--json", arguments->as_json, "Print the measures as JSON");

@@ -20,6 +20,8 @@ struct Arguments {
     bool as_json = false;
 };
 
+constexpr const char* kCapped = "openings closed with caps";  // and more, where they are left out
+
 struct Mended {
     std::vector<DVec3> positions;
     std::vector<Triangle> triangles;
@@ -34,6 +36,9 @@ Mended mend(const Mesh& mesh, const Arguments& arguments) {
     }
     PreparedSurface prepared = prepare_surface(mesh, WorldSize::UnitCube, arguments.extract.repair);
     Mended out{{}, {}, std::move(prepared.repairs)};
+    for (Repair& repair : out.repairs) {
+        if (arguments.keeps_caps && repair.what.starts_with(kCapped)) repair.what = kCapped;
+    }
     for (const std::uint32_t v : prepared.input_vertex) out.positions.push_back(mesh.positions[v]);
     for (const auto& [v, place] : prepared.put_in) out.positions[v] = place;
     for (std::size_t t = 0; t < prepared.surface.triangles.size(); ++t) {
@@ -76,10 +81,12 @@ void add_repair_command(CLI::App& app, const Common& common, Run& run) {
         ->add_option("-o,--output", arguments->output,
                      "Where it goes: .obj or .ply; - writes OBJ to standard output")
         ->required();
-    command->add_flag("--caps", arguments->keeps_caps,
-                      "Write the caps on openings too: the surface is then closed");
+    CLI::Option* caps =
+        command->add_flag("--caps", arguments->keeps_caps,
+                          "Write the caps on openings too: the surface is then closed");
     command->add_flag("--json", arguments->as_json, "Print JSON");
     add_repair_options(*command, arguments->extract);
+    caps->excludes(command->get_option("--no-caps"));
     command->footer(
         "Examples:\n  zskel repair scan.ply -o clean.ply\n  zskel repair scan.ply -o clean.obj -v");
     command->callback([&run, &common, arguments] {

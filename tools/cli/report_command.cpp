@@ -49,7 +49,7 @@ void add_report_command(CLI::App& app, const Common& common, Run& run) {
             "--detail", arguments->extract.newton.limbs.detail,
             "How far a limb must stick out to be kept: below 1 more of them, above 1 fewer")
         ->capture_default_str()
-        ->check(CLI::Range(0.01, 100.0));
+        ->check(number_in(0.01, 100.0));
     add_map_px_option(*command, arguments->map_px);
     add_backend_options(*command, arguments->backend);
     command->footer("Example:\n  zskel report horse.obj -o horse.html");

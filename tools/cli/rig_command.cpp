@@ -91,10 +91,11 @@ void add_rig_command(CLI::App& app, const Common& common, Run& run) {
     add_model_argument(*command, arguments->model);
     command->add_option("-o,--output", arguments->output, "GLB file; - writes standard output")
         ->required();
-    command->add_option("--picture", arguments->picture,
-                        "Draw the bones in the model, every vertex in the colours of its bones "
-                        "(PNG)");
-    add_picture_options(*command, arguments->picture_options);
+    CLI::Option* picture =
+        command->add_option("--picture", arguments->picture,
+                            "Draw the bones in the model, every vertex in the colours of its bones "
+                            "(PNG)");
+    add_picture_options(*command, arguments->picture_options, {picture});
     add_rig_options(*command, arguments->rig);
     command->footer(
         "Examples:\n  zskel rig horse.obj -o horse.glb --picture horse_bones.png\n"

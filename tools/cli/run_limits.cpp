@@ -32,15 +32,13 @@ void add_limit_options(CLI::App& app, Limits& limits) {
     app.add_option("--timeout", limits.timeout_s,
                    "Give up after so many seconds, with exit code 7 and no output; 0: never")
         ->capture_default_str()
-        ->check(length_or_zero())
-        ->check(CLI::Range(0.0, 1e8));
+        ->check(number_in(0.0, 1e8));
     app.add_option("--max-memory", limits.max_memory_mb,
                    "Give up, with exit code 7 and no output, when more than so many megabytes are "
                    "needed, of which any model takes about 200, reserved rather than used; 0: no "
                    "bound")
         ->capture_default_str()
-        ->check(length_or_zero())
-        ->check(CLI::Range(0.0, 1e9));
+        ->check(number_in(0.0, 1e9));
 }
 
 void set_limits(const Limits& limits) {

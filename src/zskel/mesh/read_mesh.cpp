@@ -75,7 +75,7 @@ Mesh read_mesh(const std::string& path, const ReadOptions& options) try {
     if (!format) format = format_of_content(bytes.text(), path);
     return parse_mesh(std::as_bytes(std::span(bytes.text())), *format, path, options);
 } catch (const std::bad_alloc&) {
-    throw MemoryError(fmt::format("{}: the model takes more memory than there is", path));
+    throw MemoryError(fmt::format("{}: the model takes more memory than may be had", path));
 } catch (const std::length_error&) {
     throw MemoryError(fmt::format("{}: the model takes more memory than there can be", path));
 }
