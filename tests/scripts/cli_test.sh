@@ -73,7 +73,6 @@ case_usage() {
     refused 2 '--picture-width requires --picture' rig cube.obj -o a.glb --picture-width 100
     refused 2 '--map-px requires --keep-maps' extract cube.obj --map-px 8
     refused 2 'excludes' extract cube.obj --backend ray --rays 100 --face-px 8
-    refused 2 '--exact goes with' extract cube.obj --backend ray --exact
     refused 2 'excludes' -q -v check cube.obj
     refused 2 'excludes' repair cube.obj --caps --no-caps -o a.obj
     refused 2 '--query' match --index . cube.obj

@@ -55,7 +55,7 @@ void add_method_options(CLI::App& command, ExtractionOptions& options) {
         command
             .add_option("--resample", newton.resample_model,
                         "Spread the nodes evenly, at most this far apart, in the model's units; "
-                        "0: by the radius")
+                        "nearer where the straight way would leave the solid; 0: by the radius")
             ->type_name("LENGTH")
             ->capture_default_str()
             ->check(length_or_zero())

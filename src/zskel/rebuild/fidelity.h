@@ -20,7 +20,7 @@ double share_seen(const Mesh& mesh, const VisibilityMaps& maps, double within);
 /// From every place to the nearest of a surface, model units.
 std::vector<double> distances_to(const Mesh& to, const std::vector<DVec3>& places);
 
-/// Distances between two surfaces, sampled evenly by area on each, model units.
+/// Distances between two surfaces, at 50,000 places spread evenly by area over each, model units.
 struct SurfaceDistances {
     double mean = 0.0;       ///< from both, the larger of the two means
     double hausdorff = 0.0;  ///< the largest found, either way

@@ -177,9 +177,6 @@ std::string_view name_of(BackendKind kind) {
 }
 
 void check_backend_options(const BackendOptions& options) {
-    if (options.exact && is_ray(options.kind))
-        throw UsageError(
-            "--exact goes with the CPU's Z-buffer (--backend cpu): rays have no levels");
     if (options.rays != 0 && !is_ray(options.kind)) {
         throw UsageError(fmt::format(
             "--rays goes with --backend ray or brute; {} samples a cube map (--face-px)",
