@@ -193,9 +193,8 @@ std::vector<std::vector<Influence>> skin_weights(const Mesh& mesh, const Skeleto
     std::vector<std::uint32_t> first(surface.positions.size(), kNone);
     std::vector<double> radii(first.size(), 0.0);
     double thickest = 0.0;
-    for (std::size_t v = 0; v < mesh.positions.size(); ++v) {
-        const std::uint32_t place = prepared.surface_vertex[v];
-        if (place == kNone || first[place] != kNone) continue;
+    for (std::size_t place = 0; place < first.size(); ++place) {
+        const std::uint32_t v = prepared.input_vertex[place];
         const std::uint32_t node = graph.vertex_node[v];
         const bool has_bones = node != kNone && !armature.node_bones[node].empty();
         first[place] =
