@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstring>
 #include <filesystem>
+#include <functional>
 
 #include "command.h"
 #include "zskel/io/output_file.h"
@@ -16,7 +17,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-CLI::Validator length_check(const char* name, const char* expected, bool (*is_fine)(double)) {
+CLI::Validator number_check(const std::string& name, const std::string& expected,
+                            const std::function<bool(double)>& is_fine) {
     return {[=](std::string& text) {
                 double value = 0.0;
                 const bool fine = CLI::detail::lexical_cast(text, value) && std::isfinite(value) &&
@@ -55,23 +57,18 @@ bool is_same_file(const std::string& a, const std::string& b) {
 }  // namespace
 
 CLI::Validator positive_length() {
-    return length_check("POSITIVE", "a number above 0", [](double value) { return value > 0.0; });
+    return number_check("POSITIVE", "a number above 0", [](double value) { return value > 0.0; });
 }
 
 CLI::Validator length_or_zero() {
-    return length_check("NONNEGATIVE", "a number from 0 up",
+    return number_check("NONNEGATIVE", "a number from 0 up",
                         [](double value) { return value >= 0.0; });
 }
 
 CLI::Validator number_in(double low, double high) {
-    return {[=](std::string& text) {
-                double value = 0.0;
-                const bool fine =
-                    CLI::detail::lexical_cast(text, value) && value >= low && value <= high;
-                return fine ? std::string()
-                            : fmt::format("{} is not a number from {} to {}", text, low, high);
-            },
-            fmt::format("FLOAT in [{} - {}]", low, high)};
+    return number_check(fmt::format("FLOAT in [{} - {}]", low, high),
+                        fmt::format("a number from {} to {}", low, high),
+                        [=](double value) { return value >= low && value <= high; });
 }
 
 void check_outputs(const std::string& model, const std::vector<std::string>& outputs) {

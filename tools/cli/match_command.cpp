@@ -55,8 +55,7 @@ Shape shape_of(const std::string& path, const Arguments& arguments) {
         if (path.ends_with(".swc")) {
             log_warning(
                 "{}: this form keeps no volumes; tubes of its radii stand for them, which lie "
-                "apart "
-                "from the volumes of the same shape",
+                "apart from the volumes of the same shape",
                 path);
         }
         return {path, signature_of(file.graph)};

@@ -100,13 +100,12 @@ class Resampler {
         const float longest =
             length / static_cast<float>(std::max(least_pieces, even_pieces(length)));
         std::vector<Ball> balls;
+        Ball at = ball_at(line.front(), {line.front(), kInfinity});
         if (!(length > 0.0f)) {
             // What has shrunk to a place keeps the nodes that it needs.
-            const Ball all = ball_at(line.front(), {line.front(), kInfinity});
-            balls.assign(static_cast<std::size_t>(least_pieces - 1), all);
+            balls.assign(static_cast<std::size_t>(least_pieces - 1), at);
             return balls;
         }
-        Ball at = ball_at(line.front(), {line.front(), kInfinity});
         std::size_t next = 1;
         while (true) {
             while (next + 1 < line.size() && line[next] == at.centre) ++next;

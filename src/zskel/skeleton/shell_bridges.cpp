@@ -57,7 +57,8 @@ void bridge_shells(const ClusterContext& context, DisjointSets& sets, ClusterNet
     const std::vector<Vec3>& centers = context.clusters.centers;
     std::size_t apart = count_of(sets, centers.size());
     if (apart < 2) return;
-    const double farthest = box_of(centers).diagonal();
+    // More than any two are apart, in single precision too, and not 0 where all are at one place.
+    const double farthest = 1.01 * box_of(centers).diagonal() + 1e-6;
     for (const bool must_be_free : {true, false}) {
         double over = -1.0;
         double most = farthest / std::cbrt(static_cast<double>(centers.size()));

@@ -1,7 +1,9 @@
 #include "zskel/skeleton/zip.h"
 
 #include <algorithm>
+#include <array>
 #include <functional>
+#include <span>
 #include <utility>
 
 #include "zskel/skeleton/path.h"
@@ -127,22 +129,16 @@ class Zipper {
             while (i + 2 < stays.size() && glm::distance(p, graph_.at(stays[i + 1])) <=
                                                glm::distance(p, graph_.at(stays[i])))
                 ++i;
-            if (distance_near(stays, i, p) > radii * radius_at(goes[k])) break;
+            const std::array round{graph_.at(stays[i > 0 ? i - 1 : 0]), graph_.at(stays[i]),
+                                   graph_.at(stays[i + 1])};
+            if (distance_to(std::span(round).subspan(i > 0 ? 0 : 1), p) >
+                radii * radius_at(goes[k]))
+                break;
             out.last = k;
             out.beside = i;
             if (out.at_end == 0 && i + 2 >= stays.size()) out.at_end = k;
         }
         return out;
-    }
-
-    // To the segments before and after a node.
-    float distance_near(const Strand& strand, std::size_t i, const Vec3& p) const {
-        float least = kInfinity;
-        for (std::size_t k = i > 0 ? i - 1 : 0; k <= i; ++k) {
-            const Vec3 foot = nearest_on_segment(graph_.at(strand[k]), graph_.at(strand[k + 1]), p);
-            least = std::min(least, glm::distance(foot, p));
-        }
-        return least;
     }
 
     CurveGraph& graph_;
